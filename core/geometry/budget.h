@@ -12,7 +12,7 @@
 namespace sporeprint {
 
 /// Largest number of triangles of a mushroom, by LOD.
-inline constexpr std::array<std::uint64_t, 4> most_triangles = {60000, 6000, 1200, 200};
+inline constexpr std::array<std::uint64_t, 4> most_triangles = {60000, 6000, 1200, 256};
 
 /// Triangle budget of one individual. It follows from the set of species alone: no age and no
 /// weight changes it.

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <optional>
 #include <utility>
 
+#include "core/gltf/compression.h"
 #include "core/gltf/json_text.h"
 #include "core/gltf/materials.h"
 #include "core/gltf/primitives.h"
@@ -59,30 +61,76 @@ void check_transform(const glm::dvec4& rotation, const glm::vec3& scale) {
         throw GenerationError("a node has a scale of nothing");
 }
 
-/// The transforms of a node's instances.
-struct InstanceData {
-    std::shared_ptr<const Bytes> bytes;
-    std::string attributes;  ///< JSON members
-};
+// Bits of the places and scales of compressed instances: errors are 2^-15 of the distance from the
+// node and of the size.
+constexpr int bits_of_instances = 15;
 
-/// step  factor of all scales
-InstanceData instance_data(const std::vector<GlbTransform>& places, double step, Tables& tables) {
-    const std::size_t n = places.size();
-    Chunk chunk(n * (12 + 16 + 12));
-    InstanceData out;
-    for (const GlbTransform& place : places) {
-        check_transform(place.rotation, glm::vec3(place.scale));
-        put(chunk.at, glm::vec3(place.translation));
+/// Writes the transforms of instances; nodes with equal ones share their accessors.
+class InstanceWriter {
+  public:
+    InstanceWriter(GlbGeometry storage, Tables& tables, Body& geometries)
+        : storage_(storage), tables_(tables), geometries_(geometries) {}
+
+    /// Returns the attributes of a node's instances, as JSON members.
+    ///
+    /// step  factor of all scales
+    std::string attributes_of(const std::vector<GlbTransform>& places, double step) {
+        std::vector<glm::vec3> translations, scales;
+        std::vector<glm::vec4> rotations;
+        for (const GlbTransform& place : places) {
+            check_transform(place.rotation, glm::vec3(place.scale));
+            translations.emplace_back(place.translation);
+            rotations.emplace_back(place.rotation);
+            scales.emplace_back(step * place.scale);
+        }
+        std::string attributes;
+        append(attributes += "\"TRANSLATION\":", vectors(translations));
+        append(attributes += ",\"ROTATION\":", quaternions(rotations));
+        append(attributes += ",\"SCALE\":", vectors(scales));
+        return attributes;
     }
-    for (const GlbTransform& place : places) put(chunk.at, glm::vec4(place.rotation));
-    for (const GlbTransform& place : places) put(chunk.at, glm::vec3(step * place.scale));
-    append(out.attributes += "\"TRANSLATION\":",
-           tables.accessor(n, float_component, "VEC3", n * 12));
-    append(out.attributes += ",\"ROTATION\":", tables.accessor(n, float_component, "VEC4", n * 16));
-    append(out.attributes += ",\"SCALE\":", tables.accessor(n, float_component, "VEC3", n * 12));
-    out.bytes = std::move(chunk.bytes);
-    return out;
-}
+
+  private:
+    std::size_t vectors(const std::vector<glm::vec3>& values) {
+        return storage_ == GlbGeometry::compressed
+                   ? add(filtered_vectors(values, bits_of_instances), float_component, "VEC3", {},
+                         "EXPONENTIAL")
+                   : add(values, float_component, "VEC3", {});
+    }
+
+    std::size_t quaternions(const std::vector<glm::vec4>& values) {
+        switch (storage_) {
+            case GlbGeometry::floats:
+                break;
+            case GlbGeometry::quantized:
+                return add(quantized_rotations(values), i16_component, "VEC4", normalized);
+            case GlbGeometry::compressed:
+                return add(filtered_rotations(values), i16_component, "VEC4", normalized,
+                           "QUATERNION");
+        }
+        return add(values, float_component, "VEC4", {});
+    }
+
+    /// Returns the accessor of items, a new one unless these bytes are written already.
+    template <class T>
+    std::size_t add(const std::vector<T>& items, int component, const char* type,
+                    const std::string& more, const char* filter = nullptr) {
+        const std::span<const std::uint8_t> bytes = bytes_of(items);
+        const auto [found, is_new] =
+            written_.try_emplace({type, Bytes(bytes.begin(), bytes.end())}, tables_.count);
+        if (!is_new) return found->second;
+        const auto out = std::make_shared<Bytes>();
+        tables_.transforms(bytes, items.size(), component, type, more, filter != nullptr, *out,
+                           filter);
+        geometries_.emplace_back(out);
+        return found->second;
+    }
+
+    GlbGeometry storage_;
+    Tables& tables_;
+    Body& geometries_;
+    std::map<std::pair<std::string, Bytes>, std::size_t> written_;
+};
 
 /// Returns the member `extensions` of an object, with a leading comma; empty for none.
 std::string extensions_json(const std::vector<GlbExtension>& extensions, Extensions& used) {
@@ -158,6 +206,11 @@ Slice head_of(std::string json, std::size_t binary) {
     return Slice(std::move(head));
 }
 
+TextureData data_for(const GlbMaterial& material) {
+    if (!is_textured(material)) return TextureData::none;
+    return material.is_external ? TextureData::coordinates : TextureData::all;
+}
+
 /// Returns the member of a primitive that maps variants to materials, with a leading comma; empty
 /// for none.
 std::string variants_json(const GlbPrimitive& primitive, const GlbScene& scene) {
@@ -192,9 +245,9 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, 
             const bool has_material = primitive.material != GlbPrimitive::no_material;
             if (has_material && primitive.material >= scene.materials.size())
                 throw GenerationError("a primitive wears a material that there is not");
-            const bool textured = has_material && is_textured(scene.materials[primitive.material]);
-            Geometry shape =
-                geometry_of(*primitive.mesh, textured, scene.sway, storage, step, tables);
+            const TextureData data =
+                has_material ? data_for(scene.materials[primitive.material]) : TextureData::none;
+            Geometry shape = geometry_of(*primitive.mesh, data, scene.sway, storage, step, tables);
             geometries.emplace_back(std::move(shape.bytes));
             TargetData morph = target_data(primitive.targets, primitive.mesh->positions.size(),
                                            storage, step, tables);
@@ -237,6 +290,7 @@ NodeData node_data(const GlbScene& scene, const std::vector<float>& steps, Table
                    Extensions& used, Body& geometries) {
     NodeData data;
     const std::vector<bool> is_child = children_of(scene);
+    InstanceWriter writer(scene.geometry, tables, geometries);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const GlbNode& node = scene.nodes[i];
         if (node.mesh && *node.mesh >= scene.meshes.size())
@@ -244,12 +298,9 @@ NodeData node_data(const GlbScene& scene, const std::vector<float>& steps, Table
         if (!node.mesh && !node.instances.empty())
             throw GenerationError("a node without a mesh has instances");
         const double step = node.mesh ? static_cast<double>(steps[*node.mesh]) : 1.0;
-        InstanceData instances;
-        if (!node.instances.empty()) {
-            instances = instance_data(node.instances, step, tables);
-            geometries.emplace_back(std::move(instances.bytes));
-        }
-        (data.nodes += separator(data.nodes)) += node_json(node, step, instances.attributes, used);
+        const std::string instances =
+            node.instances.empty() ? std::string() : writer.attributes_of(node.instances, step);
+        (data.nodes += separator(data.nodes)) += node_json(node, step, instances, used);
         if (node.in_scene && !is_child[i]) append(data.roots += separator(data.roots), i);
     }
     if (data.roots.empty()) throw GenerationError("a scene without nodes shows nothing");

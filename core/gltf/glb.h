@@ -42,6 +42,7 @@ struct GlbMaterial {
     std::string name;                  ///< also of its images, with their kinds: "oak_base_color"
     const ImageSet* images = nullptr;  ///< embedded when given
     std::array<std::string, 3> image_urls = {};  ///< linked when not empty
+    bool is_external = false;  ///< the addresses stand in its extras, and readers load no images
     MaterialLook look = {};
     bool repeats_u = false;  ///< wrap mode of the samplers in u: REPEAT, otherwise CLAMP_TO_EDGE
     ImageFormat url_format = ImageFormat::jpg;  ///< of the linked images
@@ -129,14 +130,16 @@ struct GlbScene {
 };
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture
-/// coordinates as normalised u16, u16 indices where they fit. Texture coordinates and tangents are
-/// written if and only if the material has images; materials with the same images share their
-/// textures. Identity transforms of nodes are omitted. Targets are dense: positions and normals
-/// move nearly everywhere, so sparse accessors would be larger.
+/// coordinates as normalised u16, u16 indices where they fit. Texture coordinates are written if and
+/// only if the material has images, tangents unless these are external; materials with the same
+/// images share their textures, nodes with the same instances their accessors. Identity transforms
+/// of nodes are omitted. Targets are dense: positions and normals move nearly everywhere, so sparse
+/// accessors would be larger.
 ///
 /// Quantised positions and their targets are i16 in steps by which the nodes of the mesh are
 /// scaled, so that the origin stays the pivot. Normals are normalised i16, tangents normalised i8;
-/// normals of targets stay floats, for their differences exceed 1.
+/// normals of targets stay floats, for their differences exceed 1. Rotations of instances are
+/// normalised i16.
 ///
 /// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
 ///          targets, the instances of each node that has some, the clip, then each image with its

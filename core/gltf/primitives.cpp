@@ -16,11 +16,11 @@ namespace sporeprint::gltf {
 namespace {
 
 /// Throws GenerationError for a mesh that is empty or lacks what its material needs.
-void check_mesh(const Mesh& mesh, bool textured) {
+void check_mesh(const Mesh& mesh, TextureData data) {
     const std::size_t n = mesh.positions.size();
     if (n == 0 || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
-    if (mesh.normals.size() != n ||
-        (textured && (mesh.tangents.size() != n || mesh.texture_coordinates.size() != n)) ||
+    if (mesh.normals.size() != n || (data == TextureData::all && mesh.tangents.size() != n) ||
+        (data != TextureData::none && mesh.texture_coordinates.size() != n) ||
         (!mesh.sway.empty() && mesh.sway.size() != n))
         throw GenerationError("a mesh lacks what its material needs of each vertex");
 }
@@ -32,12 +32,6 @@ std::array<std::uint16_t, 2> normalized_coordinates(const glm::vec2& uv) {
 
 std::uint8_t normalized_byte(float value) {
     return static_cast<std::uint8_t>(std::floor(value * 255.0F + 0.5F));
-}
-
-/// Returns the bytes of a vector of items without padding between their members.
-template <class T>
-std::span<const std::uint8_t> bytes_of(const std::vector<T>& items) {
-    return {reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(T)};
 }
 
 /// Returns the bounds of integers, which a reader compares before it scales them.
@@ -98,9 +92,9 @@ constexpr const char* octahedral = "OCTAHEDRAL";
 /// Writes quantised geometry.
 ///
 /// step  of the positions
-Geometry quantized_geometry(const Mesh& mesh, bool textured, GlbSway sway, float step,
+Geometry quantized_geometry(const Mesh& mesh, TextureData data, GlbSway sway, float step,
                             bool compressed, Tables& tables) {
-    check_mesh(mesh, textured);
+    check_mesh(mesh, data);
     const std::size_t n = mesh.positions.size();
     const auto bytes = std::make_shared<Bytes>();
     Geometry out;
@@ -109,11 +103,13 @@ Geometry quantized_geometry(const Mesh& mesh, bool textured, GlbSway sway, float
         compressed ? octahedral_normals(mesh.normals) : quantized_normals(mesh.normals);
     out.attribute("NORMAL", tables.stream(bytes_of(normals), n, i16_component, "VEC3", normalized,
                                           compressed, *bytes, octahedral));
-    if (textured) {
+    if (data == TextureData::all) {
         const std::vector<Quantized8> tangents =
             compressed ? octahedral_tangents(mesh.tangents) : quantized_tangents(mesh.tangents);
         out.attribute("TANGENT", tables.stream(bytes_of(tangents), n, i8_component, "VEC4",
                                                normalized, compressed, *bytes, octahedral));
+    }
+    if (data != TextureData::none) {
         std::vector<std::array<std::uint16_t, 2>> coordinates;
         coordinates.reserve(n);
         for (const glm::vec2& uv : mesh.texture_coordinates)
@@ -121,7 +117,7 @@ Geometry quantized_geometry(const Mesh& mesh, bool textured, GlbSway sway, float
         out.attribute("TEXCOORD_0", tables.stream(bytes_of(coordinates), n, u16_component, "VEC2",
                                                   normalized, compressed, *bytes));
     }
-    add_sway(mesh, textured, sway, compressed, tables, out, *bytes);
+    add_sway(mesh, data != TextureData::none, sway, compressed, tables, out, *bytes);
     const bool small = n <= 65535;
     const int component = small ? u16_component : u32_component;
     if (compressed) {
@@ -143,24 +139,28 @@ Geometry quantized_geometry(const Mesh& mesh, bool textured, GlbSway sway, float
     return out;
 }
 
-Geometry float_geometry(const Mesh& mesh, bool textured, GlbSway sway, Tables& tables) {
-    check_mesh(mesh, textured);
+Geometry float_geometry(const Mesh& mesh, TextureData data, GlbSway sway, Tables& tables) {
+    check_mesh(mesh, data);
     const std::size_t n = mesh.positions.size();
     const bool small = n <= 65535;
     const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
+    const bool has_tangents = data == TextureData::all, has_coordinates = data != TextureData::none;
     const std::size_t sway_size = mesh.sway.empty()                      ? 0
                                   : sway == GlbSway::texture_coordinates ? 8
                                                                          : 4;
-    Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0) + sway_size) + padded(index_bytes));
+    Chunk chunk(n * (12 + 12 + (has_tangents ? 16 : 0) + (has_coordinates ? 4 : 0) + sway_size) +
+                padded(index_bytes));
     Geometry out;
     chunk.append(std::span<const glm::vec3>(mesh.positions));
     out.attribute("POSITION", tables.positions(mesh.positions));
     chunk.append(std::span<const glm::vec3>(mesh.normals));
     out.attribute("NORMAL", tables.vectors(mesh.normals));
-    if (textured) {
+    if (has_tangents) {
         chunk.append(std::span<const glm::vec4>(mesh.tangents));
         out.attribute("TANGENT",
                       tables.accessor(n, float_component, "VEC4", n * 16, vertex_target));
+    }
+    if (has_coordinates) {
         for (const glm::vec2& uv : mesh.texture_coordinates) {
             put(chunk.at, normalized_coordinates(uv));
         }
@@ -168,7 +168,7 @@ Geometry float_geometry(const Mesh& mesh, bool textured, GlbSway sway, Tables& t
                       tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
     Bytes weights;
-    add_sway(mesh, textured, sway, false, tables, out, weights);
+    add_sway(mesh, has_coordinates, sway, false, tables, out, weights);
     chunk.append(std::span<const std::uint8_t>(weights));
     if (small)
         for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
@@ -183,11 +183,11 @@ Geometry float_geometry(const Mesh& mesh, bool textured, GlbSway sway, Tables& t
 
 }  // namespace
 
-Geometry geometry_of(const Mesh& mesh, bool textured, GlbSway sway, GlbGeometry storage, float step,
-                     Tables& tables) {
+Geometry geometry_of(const Mesh& mesh, TextureData data, GlbSway sway, GlbGeometry storage,
+                     float step, Tables& tables) {
     return storage == GlbGeometry::floats
-               ? float_geometry(mesh, textured, sway, tables)
-               : quantized_geometry(mesh, textured, sway, step, storage == GlbGeometry::compressed,
+               ? float_geometry(mesh, data, sway, tables)
+               : quantized_geometry(mesh, data, sway, step, storage == GlbGeometry::compressed,
                                     tables);
 }
 

@@ -24,13 +24,17 @@ struct Geometry {
     }
 };
 
+/// What a primitive has of each vertex for its images: nothing, texture coordinates, or also
+/// tangents, which a normal map in the same file needs.
+enum class TextureData { none, coordinates, all };
+
 /// Writes the geometry of a mesh.
 ///
-/// textured  texture coordinates and tangents are written
+/// data      of its images
 /// sway      where that of the mesh is written, if it has one
 /// step      of the positions; 1 for floats
 /// throws    GenerationError for a mesh that is empty or lacks what its material needs
-[[nodiscard]] Geometry geometry_of(const Mesh& mesh, bool textured, GlbSway sway,
+[[nodiscard]] Geometry geometry_of(const Mesh& mesh, TextureData data, GlbSway sway,
                                    GlbGeometry storage, float step, Tables& tables);
 
 /// The morph targets of a primitive.

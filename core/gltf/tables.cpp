@@ -30,9 +30,15 @@ std::size_t Tables::stream(std::span<const std::uint8_t> data, std::size_t items
     append_accessor(items, component, type, more);
     append_view(data.size(), compressed, ",\"byteStride\":" + std::to_string(stride),
                 vertex_target);
-    if (!compressed) return close_view(data, out);
-    const Bytes encoded = encoded_vertices(data, items, stride);
-    return close_compressed_view(encoded, items, stride, "ATTRIBUTES", out, filter);
+    return close_stream(data, items, compressed, out, filter);
+}
+
+std::size_t Tables::transforms(std::span<const std::uint8_t> data, std::size_t items, int component,
+                               const char* type, const std::string& more, bool compressed,
+                               Bytes& out, const char* filter) {
+    append_accessor(items, component, type, more);
+    append_view(data.size(), compressed, {}, 0);
+    return close_stream(data, items, compressed, out, filter);
 }
 
 std::size_t Tables::compressed_triangles(std::span<const std::uint32_t> indices,
@@ -76,8 +82,17 @@ void Tables::append_view(std::size_t length, bool compressed, const std::string&
     views += std::string("{\"buffer\":") + (compressed ? "1" : "0") + ",\"byteOffset\":";
     append(views, compressed ? decompressed : binary);
     append(views += ",\"byteLength\":", length);
-    views += stride + ",\"target\":" + std::to_string(target);
+    views += stride;
+    if (target != 0) views += ",\"target\":" + std::to_string(target);
     if (compressed) decompressed += padded(length);
+}
+
+std::size_t Tables::close_stream(std::span<const std::uint8_t> data, std::size_t items,
+                                 bool compressed, Bytes& out, const char* filter) {
+    if (!compressed) return close_view(data, out);
+    const std::size_t stride = data.size() / items;
+    const Bytes encoded = encoded_vertices(data, items, stride);
+    return close_compressed_view(encoded, items, stride, "ATTRIBUTES", out, filter);
 }
 
 std::size_t Tables::close_view(std::span<const std::uint8_t> data, Bytes& out) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/bytes.h"
 
@@ -21,6 +22,12 @@ constexpr const char* meshopt_compression = "EXT_meshopt_compression";
 
 /// Returns a size rounded up to a multiple of four, to which views are padded.
 constexpr std::size_t padded(std::size_t size) { return (size + 3) & ~std::size_t{3}; }
+
+/// Returns the bytes of a vector of items without padding between their members.
+template <class T>
+std::span<const std::uint8_t> bytes_of(const std::vector<T>& items) {
+    return {reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(T)};
+}
 
 /// Writes the bytes of a value and advances.
 template <class T>
@@ -50,6 +57,11 @@ struct Tables {
                        const char* type, const std::string& more, bool compressed, Bytes& out,
                        const char* filter = nullptr);
 
+    /// Adds an accessor of transforms of instances, which are no vertices, as stream() does.
+    std::size_t transforms(std::span<const std::uint8_t> data, std::size_t items, int component,
+                           const char* type, const std::string& more, bool compressed, Bytes& out,
+                           const char* filter = nullptr);
+
     /// Adds an accessor of compressed triangles, and appends their bytes to `out`.
     std::size_t compressed_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,
                                      int component, Bytes& out);
@@ -65,6 +77,9 @@ struct Tables {
 
     /// Begins a view. A compressed one lies in the second buffer, which no file contains.
     void append_view(std::size_t length, bool compressed, const std::string& stride, int target);
+
+    std::size_t close_stream(std::span<const std::uint8_t> data, std::size_t items, bool compressed,
+                             Bytes& out, const char* filter);
 
     std::size_t close_view(std::span<const std::uint8_t> data, Bytes& out);
 

@@ -13,6 +13,7 @@
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/individual/proportion.h"
+#include "core/math/direction.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/mesh/detail.h"
@@ -107,7 +108,8 @@ std::uint64_t image_texels(const ColonySpec& spec) {
 /// Adds one level of detail of a file.
 void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std::uint64_t triangles,
                std::uint64_t members) {
-    const std::uint64_t place = spec.params.instancing == Instancing::gpu ? 40 : 220;
+    const std::uint64_t place =
+        spec.params.instancing == Instancing::gpu ? bytes_of_instance(spec.params.file) : 220;
     add_level(e, vertices, triangles, spec.params.textures, spec.params.file);
     e.bytes += place * members + 900 * static_cast<std::uint64_t>(spec.params.distinct);
 }
@@ -182,24 +184,6 @@ ColonyParams effective_params(ColonyParams params, const ColonyTraits& traits,
         params.growth.stem_segments = growth.stem_segments;
     }
     return params;
-}
-
-/// Returns a rotation as a unit quaternion x, y, z, w.
-glm::dvec4 quaternion_of(const glm::dmat3& m) {
-    // Of the four squared components the largest is used, to avoid dividing by a small number.
-    const std::array<double, 4> squares = {
-        1.0 + m[0][0] - m[1][1] - m[2][2], 1.0 - m[0][0] + m[1][1] - m[2][2],
-        1.0 - m[0][0] - m[1][1] + m[2][2], 1.0 + m[0][0] + m[1][1] + m[2][2]};
-    const auto most = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) -
-                                               squares.begin());
-    const double xy = m[0][1] + m[1][0], yz = m[1][2] + m[2][1], zx = m[2][0] + m[0][2];
-    const double wx = m[1][2] - m[2][1], wy = m[2][0] - m[0][2], wz = m[0][1] - m[1][0];
-    const std::array<glm::dvec4, 4> rows = {{{squares[0], xy, zx, wx},
-                                             {xy, squares[1], yz, wy},
-                                             {zx, yz, squares[2], wz},
-                                             {wx, wy, wz, squares[3]}}};
-    const glm::dvec4 row = rows[most];
-    return row / std::sqrt(row.x * row.x + row.y * row.y + row.z * row.z + row.w * row.w);
 }
 
 /// Returns the product of two unit quaternions x, y, z, w: first `b`, then `a`.
@@ -396,29 +380,6 @@ void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin,
             {name + "_individual" + std::to_string(i + 1), {{&models[i], 0, {}}}});
     }
     add_member_nodes(scene, colony, mesh_of);
-}
-
-/// Adds all levels of detail; each of several is a node with children.
-void add_levels(GlbScene& scene, const Colony& colony, const std::string& name,
-                std::span<const Level> levels, Lods lods) {
-    std::vector<std::size_t> nodes;
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        const std::string own = level_name(name, levels[i].lod);
-        std::size_t first = scene.nodes.size();
-        if (lods != Lods::single) {
-            nodes.push_back(first++);
-            scene.nodes.push_back({.name = own});
-        }
-        if (i == 0)
-            add_colony(scene, colony, colony.skin, colony.models, own);
-        else
-            add_colony(scene, colony, colony.farther[i - 1].skin, colony.farther[i - 1].models,
-                       own);
-        if (lods != Lods::single)
-            for (; first < scene.nodes.size(); ++first)
-                scene.nodes[nodes.back()].children.push_back(first);
-    }
-    link_levels(scene, nodes, levels, lods);
 }
 
 /// What placement, collision and wind need of the distinct individuals of a colony.
@@ -663,7 +624,14 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     scene.extras_json =
         dump(extras_value(extras, write(colony.effective), box, instanced_triangles(colony),
                           {levels, params.file.lods}, colony.wind));
-    add_levels(scene, colony, product_name(spec), levels, params.file.lods);
+    add_grouped_levels(scene, product_name(spec), levels, params.file.lods,
+                       [&](std::size_t i, const std::string& name) {
+                           if (i == 0)
+                               add_colony(scene, colony, colony.skin, colony.models, name);
+                           else
+                               add_colony(scene, colony, colony.farther[i - 1].skin,
+                                          colony.farther[i - 1].models, name);
+                       });
     add_collision(scene, colony.collision, level_name(product_name(spec), params.lod),
                   params.file.collision);
     const Estimate e = measured(spec, colony);

@@ -55,6 +55,25 @@ void link_levels(GlbScene& scene, std::span<const std::size_t> nodes, std::span<
     first.extras_json = dump(Value::object().set("MSFT_screencoverage", std::move(coverages)));
 }
 
+void add_grouped_levels(GlbScene& scene, const std::string& name, std::span<const Level> levels,
+                        Lods lods,
+                        const std::function<void(std::size_t, const std::string&)>& add) {
+    std::vector<std::size_t> nodes;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string own = level_name(name, levels[i].lod);
+        std::size_t first = scene.nodes.size();
+        if (lods != Lods::single) {
+            nodes.push_back(first++);
+            scene.nodes.push_back({.name = own});
+        }
+        add(i, own);
+        if (lods != Lods::single)
+            for (; first < scene.nodes.size(); ++first)
+                scene.nodes[nodes.back()].children.push_back(first);
+    }
+    link_levels(scene, nodes, levels, lods);
+}
+
 void add_levels(GlbScene& scene, const std::string& name,
                 std::span<const std::vector<GlbPrimitive>> primitives,
                 std::span<const Level> levels, Lods lods) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +48,13 @@ void set_coverages(std::vector<Level>& levels, const Bounds& box, std::span<cons
 /// levels  as many
 void link_levels(GlbScene& scene, std::span<const std::size_t> nodes, std::span<const Level> levels,
                  Lods lods);
+
+/// Adds the levels of what consists of several nodes: each of several levels is a node with children.
+///
+/// name  product_name()
+/// add   adds the nodes of a level to the scene; called with its index and level_name()
+void add_grouped_levels(GlbScene& scene, const std::string& name, std::span<const Level> levels,
+                        Lods lods, const std::function<void(std::size_t, const std::string&)>& add);
 
 /// Adds the levels of an individual that is one mesh: a mesh and a node each.
 ///

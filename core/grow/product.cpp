@@ -136,6 +136,18 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
     sum.bytes += bytes_of_mesh(vertices, triangles, textures != Textures::none, file);
 }
 
+std::uint64_t bytes_of_instance(const FileOptions& file) {
+    switch (file.compress) {
+        case Compression::none:
+            break;
+        case Compression::quantize:
+            return 32;
+        case Compression::meshopt:
+            return 18;
+    }
+    return 40;
+}
+
 Value bounds_value(const Bounds& box) {
     return Value::object().set("min", corner(box.min)).set("max", corner(box.max));
 }
@@ -170,11 +182,12 @@ EmbeddedImages attach_images(
         material.images = images.files.get();
         material.fallback = images.fallback.get();
         throw_if_cancelled(execution);
-    } else if (textures == Textures::linked) {
+    } else if (has_addresses(textures)) {
         if (urls.jpg[0].empty())
-            throw Impossible(
-                "/textures",
-                "'linked' needs the images to have addresses; a model of one's own has none");
+            throw Impossible("/textures", in_quotes(name(textures)) +
+                                              " needs the images to have addresses; a model of "
+                                              "one's own has none");
+        material.is_external = textures == Textures::external;
         material.image_urls = is_webp ? urls.webp : urls.jpg;
         material.url_format = is_webp ? ImageFormat::webp : ImageFormat::jpg;
         if (falls_back) material.fallback_urls = urls.jpg;

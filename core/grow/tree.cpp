@@ -11,6 +11,7 @@
 #include "core/grow/collision.h"
 #include "core/grow/leaf.h"
 #include "core/grow/names.h"
+#include "core/math/direction.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/canonical.h"
@@ -56,16 +57,34 @@ void refuse_beyond_bounds(const Tree& tree) {
             problems.front().message);
 }
 
-/// Returns the mesh of the leaves at a level of detail.
+/// Adds the leaves at a level of detail.
 ///
 /// sway  of the tree; null for leaves without it
-Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& leaf,
-               const TreeSway* sway) {
-    const Foliage foliage =
-        foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, params.lod);
-    Mesh mesh = merged_leaves(foliage.leaves, foliage.leaf);
-    if (sway && !foliage.leaves.empty()) mesh.sway = sway_of(foliage.leaves, foliage.leaf, *sway);
-    return mesh;
+void add_leaves(TreeMeshes& meshes, const Tree& tree, const TreeParams& params,
+                const LeafParams& leaf, const TreeSway* sway) {
+    Foliage foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, params.lod);
+    if (foliage.leaves.empty()) return;
+    if (params.instancing == LeafInstancing::gpu) {
+        for (const PlacedLeaf& one : foliage.leaves)
+            meshes.places.push_back(
+                {params.size * one.place,
+                 quaternion_of({glm::cross(one.up, one.along), one.up, one.along}),
+                 one.size * glm::dvec3(one.breadth, 1.0, 1.0)});
+        meshes.leaves = std::move(foliage.leaf);
+    } else {
+        meshes.leaves = merged_leaves(foliage.leaves, foliage.leaf);
+        if (sway) meshes.leaves.sway = sway_of(foliage.leaves, foliage.leaf, *sway);
+    }
+    finish(meshes.leaves, params);
+}
+
+// Throws Impossible for options that exclude each other, also those of trees alone.
+void refuse_impossible(const TreeParams& params) {
+    refuse_impossible(params.file, params.textures);
+    if (params.instancing == LeafInstancing::gpu && params.file.wind != WindFormat::none)
+        throw Impossible("/instancing",
+                         "'gpu' repeats one leaf without the weights of wind, which differ from "
+                         "leaf to leaf; ask for instancing=none, or for wind=none");
 }
 
 void add_images(Estimate& e, const TreeParams& params) {
@@ -73,16 +92,60 @@ void add_images(Estimate& e, const TreeParams& params) {
     add_image_bytes(e, image_bytes(e.texels), params.textures, params.file);
 }
 
-/// Returns the expected counts of both meshes at a level of detail.
+/// The counts of a tree at a level of detail.
+struct LevelCount {
+    MeshCount bark;
+    std::uint64_t leaves = 0;
+    MeshCount leaf;  ///< of each
+
+    /// Returns the vertices in the file and the triangles that are drawn.
+    [[nodiscard]] MeshCount total(LeafInstancing instancing) const {
+        const std::uint64_t stored = instancing == LeafInstancing::gpu ? leaves > 0 : leaves;
+        return {bark.vertices + stored * leaf.vertices, bark.triangles + leaves * leaf.triangles};
+    }
+};
+
+/// Returns the expected counts at a level of detail.
 ///
 /// all  number of leaves at LOD 0
-MeshCount expected_count(const TreeParams& params, int lod, double all) {
+LevelCount expected_count(const TreeParams& params, int lod, double all) {
     const TreeCount bark = count_of_bark(params.look.shape, lod);
     const auto placed = static_cast<std::size_t>(std::ceil(all));
-    const std::uint64_t leaves = foliage_count(lod, placed);
     const std::uint64_t triangles = leaf_triangles(lod, placed);
-    return {static_cast<std::uint64_t>(bark.vertices) + leaves * leaf_vertices(triangles),
-            static_cast<std::uint64_t>(bark.triangles) + leaves * triangles};
+    return {{static_cast<std::uint64_t>(bark.vertices), static_cast<std::uint64_t>(bark.triangles)},
+            foliage_count(lod, placed),
+            {leaf_vertices(triangles), triangles}};
+}
+
+/// Adds a level of detail to the size of a file.
+void add_level(Estimate& e, const TreeParams& params, const LevelCount& count) {
+    const MeshCount total = count.total(params.instancing);
+    const bool is_instanced = params.instancing == LeafInstancing::gpu;
+    const std::uint64_t stored =
+        is_instanced ? count.bark.triangles + count.leaf.triangles : total.triangles;
+    add_level(e, total.vertices, stored, params.textures, params.file);
+    e.triangles += total.triangles - stored;
+    if (is_instanced) e.bytes += 1000 + count.leaves * bytes_of_instance(params.file);
+}
+
+/// Returns the counts of meshes that are built.
+LevelCount count_of(const TreeMeshes& meshes) {
+    const bool is_instanced = !meshes.places.empty();
+    return {{meshes.bark.positions.size(), meshes.bark.triangles()},
+            is_instanced ? meshes.places.size() : 1,
+            {meshes.leaves.positions.size(), meshes.leaves.triangles()}};
+}
+
+/// Adds the meshes and nodes of a level of detail whose leaves are instanced.
+///
+/// name  level_name()
+void add_instanced(GlbScene& scene, const TreeMeshes& meshes, const std::string& name) {
+    scene.nodes.push_back({.name = name + "_bark", .mesh = scene.meshes.size()});
+    scene.meshes.push_back({name + "_bark", {{&meshes.bark, 0, {}}}});
+    if (meshes.places.empty()) return;
+    scene.nodes.push_back(
+        {.name = name + "_leaves", .mesh = scene.meshes.size(), .instances = meshes.places});
+    scene.meshes.push_back({name + "_leaf", {{&meshes.leaves, 1, {}}}});
 }
 
 /// Returns about how far the outline of a crown is from the true one: by how much a leaf in place of
@@ -109,8 +172,7 @@ double crown_error(const TreeParams& params, const Atlas& atlas, int lod, double
 Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
     const TreeParams& params = spec.params;
     Estimate e;
-    for (const TreeMeshes& meshes : levels)
-        add_level(e, meshes.vertices(), meshes.triangles(), params.textures, params.file);
+    for (const TreeMeshes& meshes : levels) add_level(e, params, count_of(meshes));
     add_images(e, params);
     add_solid_bytes(e, 0, most_trunk_capsules, params.file);
     return e;
@@ -119,7 +181,7 @@ Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
 Estimate estimate(const TreeSpec& spec) {
     const TreeParams& params = spec.params;
     const TreeLook& look = params.look;
-    refuse_impossible(params.file, params.textures);
+    refuse_impossible(params);
     const double tips = expected_tips(look.shape.topology);
     if (tips > static_cast<double>(most_tips))
         throw Impossible("/order", "the tree would have about " +
@@ -136,10 +198,8 @@ Estimate estimate(const TreeSpec& spec) {
     // mean, which matters for herbs alone.
     const double most = (tips + std::sqrt(tips)) * look.leaves.per_tip;
     Estimate e;
-    for (const int lod : levels_in_file(params.lod, params.file)) {
-        const MeshCount count = expected_count(params, lod, most);
-        add_level(e, count.vertices, count.triangles, params.textures, params.file);
-    }
+    for (const int lod : levels_in_file(params.lod, params.file))
+        add_level(e, params, expected_count(params, lod, most));
     add_images(e, params);
     add_solid_bytes(e, 0, most_trunk_capsules, params.file);
     return e;
@@ -152,7 +212,7 @@ std::vector<Level> levels_of(const TreeSpec& spec, const Atlas& atlas, const Bou
     std::vector<Level> levels;
     std::vector<double> errors;
     for (int lod = params.lod; lod <= last_lod; ++lod) {
-        const MeshCount count = expected_count(params, lod, leaves);
+        const MeshCount count = expected_count(params, lod, leaves).total(params.instancing);
         levels.push_back({lod, count.vertices, count.triangles, 0.0});
         errors.push_back(crown_error(params, atlas, lod, leaves));
     }
@@ -194,10 +254,9 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
         params.lod = lod;
         Bark bark = bark_of(tree, lod);
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
-        TreeMeshes meshes{std::move(bark.mesh),
-                          leaves_of(tree, params, leaf, sway ? &*sway : nullptr), wind};
+        TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);
-        if (!meshes.leaves.positions.empty()) finish(meshes.leaves, params);
+        add_leaves(meshes, tree, params, leaf, sway ? &*sway : nullptr);
         levels.push_back(std::move(meshes));
     }
     return levels;
@@ -205,9 +264,17 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
 
 Bounds bounds(const TreeMeshes& meshes) {
     Bounds box = bounds(meshes.bark);
-    if (meshes.leaves.positions.empty()) return box;
-    const Bounds leaves = bounds(meshes.leaves);
-    return {glm::min(box.min, leaves.min), glm::max(box.max, leaves.max)};
+    const auto add = [&](const glm::vec3& at) {
+        box.min = glm::min(box.min, at);
+        box.max = glm::max(box.max, at);
+    };
+    if (meshes.places.empty())
+        for (const glm::vec3& at : meshes.leaves.positions) add(at);
+    for (const GlbTransform& place : meshes.places)
+        for (const glm::vec3& at : meshes.leaves.positions)
+            add(glm::vec3(place.translation +
+                          rotated(place.rotation, place.scale * glm::dvec3(at))));
+    return box;
 }
 
 std::string image_key(const TreePaint& paint, ImageFormat format) {
@@ -263,7 +330,12 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
         grown.vertices += levels[i].vertices = meshes[i].vertices();
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }
-    add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
+    if (params.instancing == LeafInstancing::gpu)
+        add_grouped_levels(
+            scene, product_name(spec, atlas), levels, params.file.lods,
+            [&](std::size_t i, const std::string& name) { add_instanced(scene, meshes[i], name); });
+    else
+        add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
     scene.extras_json = dump(extras_value(extras, write(params), box, first.triangles(),
                                           {levels, params.file.lods}, first.wind));
     Collision collision;

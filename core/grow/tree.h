@@ -1,6 +1,7 @@
 // Pipeline of a tree: from a request to a GLB file.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,20 +18,26 @@ namespace sporeprint {
 /// For a sampled topology the expected numbers are used.
 ///
 /// pre     check() reports nothing for the spec
-/// throws  Impossible (path "/order") naming the expected number if it exceeds most_tips, (path
+/// throws  Impossible (path "/instancing") for instanced leaves with wind, (path "/order") naming the expected number if it exceeds most_tips, (path
 ///         "/leaves/per_tip") if it exceeds most_leaves, (path "/twig_length") for segments too
 ///         long for their radius
 [[nodiscard]] Estimate estimate(const TreeSpec& spec);
 
-/// The meshes of a tree; each is one draw call. `leaves` is empty for a bare tree.
+/// The meshes of a tree; each is one draw call.
 struct TreeMeshes {
-    Mesh bark, leaves;
-    Wind wind;  ///< the same at every level of detail
+    Mesh bark;
+    /// All leaves, or one of those that stand at the places; empty for a bare tree.
+    Mesh leaves;
+    std::vector<GlbTransform> places;  ///< empty unless leaves are instanced
+    Wind wind;                         ///< the same at every level of detail
 
     [[nodiscard]] std::size_t vertices() const {
         return bark.positions.size() + leaves.positions.size();
     }
-    [[nodiscard]] std::size_t triangles() const { return bark.triangles() + leaves.triangles(); }
+    /// Returns the number of triangles that are drawn.
+    [[nodiscard]] std::size_t triangles() const {
+        return bark.triangles() + leaves.triangles() * std::max<std::size_t>(places.size(), 1);
+    }
 };
 
 /// Returns the leaf of which a tree has many copies, from its preset in the atlas.
@@ -75,7 +82,7 @@ struct TreeMeshes {
 /// materials.
 ///
 /// extras     its image URLs are those of the bark
-/// leaf_urls  URLs of the images of its leaves, for Textures::linked
+/// leaf_urls  URLs of the images of its leaves, if has_addresses(textures)
 /// returns    the GLB as shared slices: header with JSON, geometry and images of bark and leaves
 /// throws     InvalidInput, also (path "/leaf") if the atlas has no such leaf; Impossible,
 ///            GenerationError, Cancelled

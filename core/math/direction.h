@@ -1,9 +1,11 @@
-// Unit vectors under rotation and parallel transport, and safe normalisation.
+// Unit vectors under rotation and parallel transport, safe normalisation, and quaternions.
 #pragma once
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace sporeprint {
 
@@ -25,5 +27,16 @@ namespace sporeprint {
 /// Returns `direction` made perpendicular to the unit vector `normal` and normalised; any
 /// perpendicular vector if its length is zero or it is parallel to the normal.
 [[nodiscard]] glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction);
+
+/// Returns a rotation as a unit quaternion x, y, z, w.
+///
+/// turn  its columns are unit vectors, square to each other and right-handed
+[[nodiscard]] glm::dvec4 quaternion_of(const glm::dmat3& turn);
+
+/// Returns a vector rotated by a unit quaternion x, y, z, w.
+[[nodiscard]] inline glm::dvec3 rotated(const glm::dvec4& turn, const glm::dvec3& v) {
+    const glm::dvec3 axis(turn);
+    return v + 2.0 * glm::cross(axis, glm::cross(axis, v) + turn.w * v);
+}
 
 }  // namespace sporeprint

@@ -32,7 +32,7 @@ inline constexpr std::array<Detail, 4> details = {{
     {26, 18, 38, 96, 7, 1, 6, 11},
     {11, 9, 20, 40, 4, 0, 3, 7},
     {7, 5, 7, 16, 0, 0, 1, 4},
-    {4, 3, 4, 8, 0, 0, 0, 1},
+    {4, 3, 4, 8, 0, 0, 1, 1},
 }};
 
 /// One level beyond those of a request: the individuals of a colony at LOD 3. It has the columns of

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,25 +23,50 @@ void append(Mesh& mesh, const Mesh& part) {
     for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
 }
 
-// A group of orders that is skinned together: trunk and great branches, branches, twigs.
+// Consecutive orders that are skinned together.
 struct Group {
     int low = 1, high = 1;  // orders
     int levels = 0;         // of subdivision
     double gap = 0.0;       // longest distance without a node, in radii
 };
 
-std::vector<Group> groups_of(int highest, int lod) {
+// Returns how thin an order is: 0 for the trunk, 1 for branches, 2 for twigs, which are never
+// subdivided.
+int thinness(int order, int highest) {
+    if (order == highest) return 0;
+    return highest - order < 4 && order > 2 ? 1 : 2;
+}
+
+// By level of detail: the most segments of a tree whose finest orders are left out only beyond it.
+// Few twigs cost little, and they are half of the outline of a shrub.
+constexpr std::array<double, tree_lods> most_segments = {1e9, 500.0, 300.0, 150.0};
+
+// Returns the lowest order that is shown at a level of detail.
+//
+// segments  of each order, from 1
+int lowest_order(std::span<const double> segments, int lod) {
+    const auto highest = static_cast<int>(segments.size());
     // A low tree keeps the branches that carry its leaves while its trunk is wider than a line.
-    const int lowest =
-        std::clamp(1 + lod, 1, std::max(1, highest - (lod + 1 == tree_lods ? 1 : 2)));
+    int lowest = std::clamp(1 + lod, 1, std::max(1, highest - (lod + 1 == tree_lods ? 1 : 2)));
+    double sum = 0.0;
+    for (int order = highest; order >= 1; --order) {
+        sum += segments[static_cast<std::size_t>(order - 1)];
+        if (sum > most_segments[static_cast<std::size_t>(lod)]) break;
+        lowest = std::min(lowest, order);
+    }
+    return lowest;
+}
+
+// Returns the groups of the orders lowest..highest, thickest first.
+std::vector<Group> groups_of(int highest, int lowest, int lod) {
     std::vector<Group> groups;
-    int high = highest;
-    for (int i = 0; i < 3 && high >= lowest; ++i) {
-        // Twigs of order 1, half of all segments, are never subdivided.
-        const int low = i == 2 ? lowest : std::max({lowest, high - 1, std::min(high, 2)});
-        groups.push_back(
-            {low, high, std::max(0, 2 - i - lod), i == 2 ? 1e9 : 3.0 * (1 + i) * (1 + lod)});
-        high = low - 1;
+    for (int order = highest; order >= lowest; --order) {
+        const int thin = thinness(order, highest);
+        if (!groups.empty() && thinness(groups.back().high, highest) == thin)
+            groups.back().low = order;
+        else
+            groups.push_back({order, order, std::max(0, 2 - thin - lod),
+                              thin == 2 ? 1e9 : 3.0 * (1 + thin) * (1 + lod)});
     }
     return groups;
 }
@@ -156,7 +183,11 @@ Bark bark_of(const Tree& tree, int lod) {
                            std::to_string(lod) + " is outside 0.." + std::to_string(tree_lods - 1));
     Bark made;
     Mesh& bark = made.mesh;
-    for (const Group& group : groups_of(tree.ramification.nodes[0].order, lod)) {
+    const int highest = tree.ramification.nodes[0].order;
+    std::vector<double> segments(static_cast<std::size_t>(highest), 0.0);
+    for (const Ramification::Node& node : tree.ramification.nodes)
+        segments[static_cast<std::size_t>(node.order - 1)] += 1.0;
+    for (const Group& group : groups_of(highest, lowest_order(segments, lod), lod)) {
         const Skeleton part = part_of(tree, group, 0.25 * (1 + lod));
         if (part.segments.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
@@ -181,8 +212,13 @@ TreeCount count_of_bark(const TreeShape& shape, int lod) {
     const std::vector<ExpectedOrder> orders = expected_orders(shape);
     TreeCount count;
     double rings = 0.0;
-    for (const Group& group : groups_of(static_cast<int>(orders.size()), lod)) {
-        // Quads round a segment times rings along it, plus those of the seam, forks and ends.
+    // A sampled tree may have fewer segments than expected, and therefore show a lower order.
+    std::vector<double> fewest;
+    for (const ExpectedOrder& order : orders) fewest.push_back(0.75 * order.edges);
+    const auto highest = static_cast<int>(orders.size());
+    for (const Group& group : groups_of(highest, lowest_order(fewest, lod), lod)) {
+        // Quads round a segment times rings along it, plus those of the seam, forks and ends, which
+        // are fewer where nothing is subdivided.
         double segments = 0.0, between = 0.0;
         for (int k = group.low; k <= group.high; ++k) {
             const ExpectedOrder& order = orders[static_cast<std::size_t>(k - 1)];
@@ -194,8 +230,9 @@ TreeCount count_of_bark(const TreeShape& shape, int lod) {
             between += shape.trunk / (group.gap * top.radius);
         rings += segments + between;
         const double faces = static_cast<double>(std::size_t{4} << (2 * group.levels));
-        count.vertices += (4.3 * segments + 1.35 * between) * (faces + 2.0);
-        count.triangles += 2.0 * (4.0 * segments + 1.35 * between) * faces;
+        const bool is_flat = group.levels == 0;
+        count.vertices += ((is_flat ? 2.4 : 4.3) * segments + 1.35 * between) * (faces + 2.0);
+        count.triangles += 2.0 * ((is_flat ? 2.0 : 4.0) * segments + 1.35 * between) * faces;
     }
     if (rings > static_cast<double>(most_skeleton_nodes)) throw_too_thin(rings);
     return count;

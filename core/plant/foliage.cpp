@@ -24,7 +24,7 @@ constexpr std::array<double, tree_lods> least = {0.0, 16'000.0, 2'500.0, 1'700.0
 
 // By level of detail: triangles of a leaf where few leaves stand, and the number of triangles of all
 // leaves above which each has fewer.
-constexpr std::array<std::size_t, tree_lods> most_triangles = {most_foliage_triangles, 12, 8, 4};
+constexpr std::array<std::size_t, tree_lods> most_triangles = {most_foliage_triangles, 12, 4, 4};
 constexpr std::array<std::size_t, tree_lods> most_in_all = {160'000, 64'000, 10'000, 6'800};
 
 // Length of a group's leaf in its breadths at most; more would be a stripe.
@@ -241,24 +241,21 @@ Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& sh
                    std::uint32_t seed, int lod) {
     std::vector<PlacedLeaf> all = placed_leaves(tree, style, seed);
     if (all.empty()) return {};
-    Mesh finest = foliage_leaf(shape, leaf_triangles(0, all.size()));
-    if (lod == 0) return {std::move(all), std::move(finest)};
-    const Farthest farthest = farthest_first(all, finest);
-    const std::size_t count = foliage_count(lod, all.size());
+    const std::size_t count = foliage_count(lod, all.size()),
+                      triangles = leaf_triangles(lod, all.size());
+    // The same leaves at the same places, so that files with several levels share them.
+    if (count == all.size()) return {std::move(all), foliage_leaf(shape, triangles)};
+    const Farthest farthest =
+        farthest_first(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
+    LeafShape flat = shape;
+    flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
     Foliage foliage;
-    if (count == all.size()) {
-        foliage.leaf = foliage_leaf(shape, leaf_triangles(lod, all.size()));
-        foliage.leaves = std::move(all);
-    } else {
-        LeafShape flat = shape;
-        flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
-        foliage.leaf = foliage_leaf(flat, leaf_triangles(lod, all.size()));
-        // The leaves that reach farthest stay alone, so that the crown keeps its extent.
-        const std::span<const PlacedLeaf> alone(all.data(), farthest.count),
-            others(all.data() + farthest.count, all.size() - farthest.count);
-        foliage.leaves = grouped(tree, others, foliage.leaf, count - farthest.count);
-        foliage.leaves.insert(foliage.leaves.end(), alone.begin(), alone.end());
-    }
+    foliage.leaf = foliage_leaf(flat, triangles);
+    // The leaves that reach farthest stay alone, so that the crown keeps its extent.
+    const std::span<const PlacedLeaf> alone(all.data(), farthest.count),
+        others(all.data() + farthest.count, all.size() - farthest.count);
+    foliage.leaves = grouped(tree, others, foliage.leaf, count - farthest.count);
+    foliage.leaves.insert(foliage.leaves.end(), alone.begin(), alone.end());
     keep_within(farthest.box, foliage.leaf, foliage.leaves);
     return foliage;
 }

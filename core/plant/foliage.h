@@ -44,7 +44,8 @@ struct Foliage {
                                               const Mesh& leaf, std::size_t count);
 
 /// Returns the foliage of a tree at a level of detail. The crown has the same extent at every level:
-/// the leaves that reach farthest are always there, and no other reaches beyond them.
+/// the leaves that reach farthest are always there, and no group reaches beyond them. Levels with
+/// all leaves have them at the same places in the same order.
 ///
 /// shape   of each leaf
 /// throws  Impossible (path "/per_tip") for more than most_leaves

@@ -28,6 +28,20 @@ struct TreeLook {
 };
 static_assert(well_described<TreeLook>());
 
+/// How a file repeats a leaf. none: one mesh of all leaves, core glTF. gpu: one leaf, by
+/// EXT_mesh_gpu_instancing.
+enum class LeafInstancing { none, gpu };
+
+constexpr const char* name(LeafInstancing instancing) {
+    switch (instancing) {
+        case LeafInstancing::none:
+            return "none";
+        case LeafInstancing::gpu:
+            return "gpu";
+    }
+    return nullptr;
+}
+
 /// The parameters of a tree. Those of its look default to those of the preset.
 struct TreeParams {
     std::uint32_t seed = 1;
@@ -37,6 +51,7 @@ struct TreeParams {
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     FileOptions file;
+    LeafInstancing instancing = LeafInstancing::none;
     TreeLook look;
 
     static constexpr void fields(auto visit) {
@@ -61,6 +76,11 @@ struct TreeParams {
                                             "LOD 0; it halves with every level."});
         visit(&P::textures, info_of<L>("textures"));
         visit(&P::file, file_info);
+        visit(&P::instancing,
+              Info{.name = "instancing",
+                   .doc = "How leaves are repeated: in one mesh of all of them, or by "
+                          "EXT_mesh_gpu_instancing, a tenth of the bytes and of the memory. "
+                          "Without wind."});
         visit(&P::look, Info{.name = ""});
     }
     bool operator==(const TreeParams&) const = default;

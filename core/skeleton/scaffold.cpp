@@ -53,6 +53,7 @@ class Builder {
   public:
     Builder(const Skeleton& skeleton, int levels)
         : skeleton_(skeleton),
+          flat_(levels == 0),
           factor_(tube_factor(levels)),
           ball_half_(ball_half(levels)),
           segments_at_(skeleton.nodes.size()),
@@ -180,14 +181,16 @@ class Builder {
         const double low = occupied_length(step.from, step.segment);
         const double high = length - occupied_length(step.to, step.segment);
         std::vector<double> places;
-        if (!is_smooth_node(step.from)) {
-            places.push_back(low + first_ring * a.radius);
-            if (forks_[step.from] != none) places.push_back(low + second_ring * a.radius);
-        }
-        if (!is_smooth_node(step.to)) {
-            if (forks_[step.to] != none) places.push_back(high - second_ring * b.radius);
-            places.push_back(high - first_ring * b.radius);
-        }
+        // A surface that is not subdivided goes through its rings: only a fork needs one more, where
+        // its faces become a tube.
+        const auto needs = [&](std::uint32_t at, bool second) {
+            return forks_[at] != none ? !(flat_ && second)
+                                      : !flat_ && !second && !is_smooth_node(at);
+        };
+        if (needs(step.from, false)) places.push_back(low + first_ring * a.radius);
+        if (needs(step.from, true)) places.push_back(low + second_ring * a.radius);
+        if (needs(step.to, true)) places.push_back(high - second_ring * b.radius);
+        if (needs(step.to, false)) places.push_back(high - first_ring * b.radius);
         const double least = low + 0.5 * ring_gap * a.radius;
         const double most = high - 0.5 * ring_gap * b.radius;
         std::erase_if(places, [&](double s) { return s < least || s > most; });
@@ -366,8 +369,15 @@ class Builder {
         }
     }
 
-    // Closes an end with a smaller ring beyond it and a quad over that.
+    // Closes an end with a smaller ring beyond it and a quad over that; without subdivision, with
+    // the quad alone.
     void close(const Station& station, const std::array<std::uint32_t, 4>& ring, double sign) {
+        if (flat_) {
+            const bool is_end = sign > 0.0;
+            cap(is_end ? ring : std::array{ring[0], ring[3], ring[2], ring[1]}, station.at,
+                station.label);
+            return;
+        }
         std::array<std::uint32_t, 4> tip{};
         for (std::size_t k = 0; k < 4; ++k)
             tip[k] = add(station.place + cap_size * (result_.points[ring[k]] - station.place) +
@@ -395,6 +405,7 @@ class Builder {
     }
 
     const Skeleton& skeleton_;
+    bool flat_;  // whether the surface is not subdivided
     double factor_, ball_half_;
     std::vector<std::vector<std::uint32_t>> segments_at_;
     std::vector<std::uint32_t> forks_;

@@ -291,6 +291,11 @@ void add_compressed(Requests& requests, const std::shared_ptr<const Atlas>& spec
             requests[line_of(folder + "tree", 1, lod, small_side)] = [tree] {
                 return grow_tree(tree, atlas()).glb;
             };
+            tree.params.instancing = LeafInstancing::gpu;
+            tree.params.file.lods = Lods::msft;
+            requests[line_of(folder + "tree/instanced", 1, lod, small_side)] = [tree] {
+                return grow_tree(tree, atlas()).glb;
+            };
             LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
             leaf.params.lod = lod;
             leaf.params.texture_size.value = small_side;

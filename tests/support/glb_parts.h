@@ -23,7 +23,10 @@ struct GlbParts {
 /// Returns glb() of the scene.
 [[nodiscard]] inline Body glb(const Mesh& mesh, const GlbParts& parts) {
     GlbScene scene;
-    scene.materials.push_back({parts.name, parts.images, parts.image_urls, parts.look, false});
+    scene.materials.push_back({.name = parts.name,
+                               .images = parts.images,
+                               .image_urls = parts.image_urls,
+                               .look = parts.look});
     scene.meshes.push_back({parts.name, {{&mesh, 0, parts.targets}}});
     scene.nodes.push_back({.name = parts.name, .mesh = 0});
     scene.extras_json = parts.extras_json;

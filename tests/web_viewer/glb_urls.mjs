@@ -82,8 +82,15 @@ const images = [
     small,
     `${small}&image_format=webp&wind=uv`,
     `${small}&image_format=webp_jpg&wind=color`,
+    "textures=external",
     "textures=none",
     "textures=none&wind=attribute",
+];
+// Instanced leaves have no wind.
+const tree_images = [
+    ...images,
+    `${small}&instancing=gpu`,
+    "textures=none&instancing=gpu",
 ];
 const variants = [...images, `${small}&variants=weather`];
 const lods = ["", "lod=1", "lod=2", "lod=3"];
@@ -156,7 +163,7 @@ async function requestFactors(server) {
                 ["autumn=0", "autumn=0.5"],
                 lods,
                 ["seed=7", "seed=8"],
-                images,
+                tree_images,
                 ["", "size=0.25", "leaves.per_tip=0"],
                 ["", "growth=drawn"],
                 solid,

@@ -39,7 +39,7 @@ TEST_F(CoralsTest, EachAndTheirMixesAreGrownCachedAndDescribed) {
         ASSERT_EQ(description.status, 200) << text_of(description);
         const Value body = json_of(description);
         EXPECT_GT(body.at_pointer("/estimate/triangles")->as_number(), 0.0);
-        EXPECT_LE(body.at_pointer("/estimate/triangles")->as_number(), 200.0);
+        EXPECT_LE(body.at_pointer("/estimate/triangles")->as_number(), 256.0);
         // What it cannot have has no value of its own.
         EXPECT_EQ(body.at_pointer("/effective/hymenium/blades"), nullptr);
         EXPECT_EQ(body.at_pointer("/effective/weathering/waves"), nullptr);

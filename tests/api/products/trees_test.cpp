@@ -268,12 +268,12 @@ TEST_F(TreesTest, WhatIsTooMuchIs422WithItsSizeBeforeAnyWork) {
     EXPECT_EQ(generated(), 0u);
 
     ServiceOptions options;
-    options.most_vertices = 5000;
+    options.most_vertices = 6000;
     options.most_texels = 6 * 256 * 256;
     Service poor(built_in_atlas(), options);
     const Response response = handle(poor, get(oak));
     expect_problem(response, 422);
-    EXPECT_TRUE(names(response, "lod", "at most 5000"));
+    EXPECT_TRUE(names(response, "lod", "at most 6000"));
     EXPECT_TRUE(names(response, "texture_size"));
     EXPECT_TRUE(names(handle(poor, body(R"({"preset":"broadleaf"})")), "/lod"));
     const Response image = handle(poor, get("/v1/trees/birch/normal.jpg"));
@@ -357,7 +357,8 @@ TEST(TreeSchema, SaysWhoseDefaultsAreThePresets) {
         EXPECT_EQ(own.erase(option.name) + preset.erase(option.name), 1U);
     });
     EXPECT_EQ(preset.erase("lod"), 1U) << "which the profile sets";
-    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "autumn", "texture_size", "textures"}));
+    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "autumn", "texture_size", "textures",
+                                          "instancing"}));
     for (const char* name :
          {"order", "matrix", "rows", "trunk", "leaf", "leaves.per_tip", "bark.furrows"})
         EXPECT_TRUE(preset.contains(name)) << name;

@@ -90,8 +90,8 @@ TEST(Ornaments, TheRingIsOneClosedShellOnTheStem) {
 
 TEST(Ornaments, CoarseLevelsOfDetailDropThem) {
     EXPECT_GT(pieces(amanita(1.0, 1.0, 1)).size(), 40u);
-    EXPECT_EQ(pieces(amanita(1.0, 1.0, 2)).size(), 2u) << "body and ring; warts are painted";
-    EXPECT_EQ(pieces(amanita(1.0, 1.0, 3)).size(), 1u);
+    for (const int lod : {2, 3})
+        EXPECT_EQ(pieces(amanita(1.0, 1.0, lod)).size(), 2u) << "body and ring; warts are painted";
 }
 
 TEST(Ornaments, ScalesOfAnInkCapAreClosed) {

@@ -293,7 +293,7 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
 }
 
 TEST(Weathering, AnyDamageKeepsTheTriangleLimitOfItsLevel) {
-    constexpr std::array<std::size_t, 4> most = {60000, 6000, 1200, 200};
+    constexpr std::array<std::size_t, 4> most = {60000, 6000, 1200, 256};
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             MushroomSpec order = order_of(id, 0.8, 2, lod);

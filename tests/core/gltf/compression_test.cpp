@@ -10,6 +10,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/gltf/glb.h"
@@ -69,8 +70,11 @@ class Decoded {
         } else {
             EXPECT_EQ(from[0], 0xa0) << "the extension requires version 0";
             EXPECT_EQ(meshopt_decodeVertexBuffer(out.data(), count, stride, from, length), 0);
-            if (json.at_pointer(extension + "/filter"))
-                meshopt_decodeFilterOct(out.data(), count, stride);
+            const Value* const filter = json.at_pointer(extension + "/filter");
+            const std::string_view name = filter ? filter->as_string() : "NONE";
+            if (name == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), count, stride);
+            if (name == "QUATERNION") meshopt_decodeFilterQuat(out.data(), count, stride);
+            if (name == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), count, stride);
         }
         return out;
     }
@@ -91,6 +95,26 @@ class Decoded {
                 EXPECT_EQ(item[3], 0);
                 const float unit = json.at_pointer(path + "/normalized") ? 32767.0F : 1.0F;
                 out[i] = glm::vec3(item[0], item[1], item[2]) / unit;
+            }
+        return out;
+    }
+
+    /// Returns the quaternions of an accessor of four floats or normalised i16.
+    [[nodiscard]] std::vector<glm::vec4> rotations(std::size_t accessor) const {
+        const std::string path = "/accessors/" + std::to_string(accessor);
+        const std::size_t count = number(path + "/count");
+        const Bytes bytes = view(number(path + "/bufferView"));
+        const std::size_t stride = bytes.size() / count;
+        std::vector<glm::vec4> out(count);
+        for (std::size_t i = 0; i < count; ++i)
+            if (number(path + "/componentType") == 5126) {
+                EXPECT_EQ(stride, 16u);
+                std::memcpy(&out[i], bytes.data() + i * stride, 16);
+            } else {
+                EXPECT_TRUE(json.at_pointer(path + "/normalized"));
+                Quantized16 item;
+                std::memcpy(item.data(), bytes.data() + i * stride, 8);
+                out[i] = glm::vec4(item[0], item[1], item[2], item[3]) / 32767.0F;
             }
         return out;
     }
@@ -269,6 +293,40 @@ TEST(Compression, BothPartsOfATreeHaveOneScale) {
                                                "/attributes/POSITION")),
                       scale),
                   0.9 * static_cast<double>(scale));
+}
+
+// Leaves of a tree, each with a size and a breadth of its own.
+TEST(Compression, InstancesStandAndTurnAsTheyDid) {
+    TreeSpec spec{"shrub", params_of(*atlas().find_tree("shrub"))};
+    spec.params.lod = 2;
+    spec.params.textures = Textures::none;
+    spec.params.instancing = LeafInstancing::gpu;
+    const std::string places = "/nodes/1/extensions/EXT_mesh_gpu_instancing/attributes/";
+    const Decoded plain(grow_tree(spec, atlas()).glb);
+    for (const Compression compress : {Compression::quantize, Compression::meshopt}) {
+        SCOPED_TRACE(name(compress));
+        spec.params.file.compress = compress;
+        const Decoded file(grow_tree(spec, atlas()).glb);
+        const auto vectors = [&](const Decoded& of, const char* attribute) {
+            return of.vectors(of.number(places + attribute));
+        };
+        const std::vector<glm::vec3> translations = vectors(plain, "TRANSLATION"),
+                                     scales = vectors(plain, "SCALE");
+        EXPECT_GT(translations.size(), 500u);
+        EXPECT_LE(largest_difference(translations, vectors(file, "TRANSLATION"), 1.0F),
+                  static_cast<double>(largest_coordinate(translations)) / 14000.0);
+        // The one leaf is quantised, and its instances are scaled by the step.
+        const float step = vectors(file, "SCALE").front().y / scales.front().y;
+        EXPECT_LE(largest_difference(scales, vectors(file, "SCALE"), 1.0F / step),
+                  static_cast<double>(largest_coordinate(scales)) / 8192.0);
+        const auto rotations = [&](const Decoded& of) {
+            return of.rotations(of.number(places + "ROTATION"));
+        };
+        const std::vector<glm::vec4> turns = rotations(plain), turned = rotations(file);
+        ASSERT_EQ(turns.size(), turned.size());
+        for (std::size_t i = 0; i < turns.size(); ++i)
+            EXPECT_GT(std::abs(glm::dot(turns[i], glm::normalize(turned[i]))), 0.9999995F);
+    }
 }
 
 }  // namespace

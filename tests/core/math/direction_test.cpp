@@ -50,5 +50,20 @@ TEST(Direction, PerpendicularVectorsRotateRightHanded) {
     EXPECT_NEAR(glm::dot(square_to({0, 1, 0}, {0, 2, 0}), glm::dvec3(0, 1, 0)), 0.0, 1e-12);
 }
 
+// Whatever the rotation, also by half a turn, where the real part is nothing.
+TEST(Direction, QuaternionsTurnAsTheirMatrices) {
+    Random random(9, 1, 0);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 up = glm::normalize(drawn(random)), along = square_to(up, drawn(random));
+        glm::dmat3 turn(glm::cross(up, along), up, along);
+        if (i == 0) turn = glm::dmat3(-1, 0, 0, 0, -1, 0, 0, 0, 1);
+        if (i == 1) turn = glm::dmat3(1);
+        const glm::dvec4 q = quaternion_of(turn);
+        EXPECT_NEAR(glm::dot(q, q), 1.0, 1e-12);
+        const glm::dvec3 v = drawn(random);
+        EXPECT_LT(glm::distance(rotated(q, v), turn * v), 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace sporeprint::math_direction_test
