@@ -633,7 +633,8 @@ TEST(Sweep, RandomOutlinesSweepToValidMeshes) {
         } catch (const Impossible&) {
         }
     }));
-    EXPECT_GT(6 * grown, drawn);
+    // Of few draws chance may refuse nearly all.
+    EXPECT_GT(drawn < 100 ? 100 * grown : 6 * grown, drawn);
 }
 
 }  // namespace
