@@ -20,13 +20,16 @@ build() { # preset [target ...]
         { grep -vE '^ninja: no work to do|Re-checking globbed directories' || true; }
 }
 
-# Builds web_viewer/dist if a file of the page has changed since the last build.
-build_page() {
-    local lock now
+# Builds web_viewer/dist if a file of the page has changed since the last build. Tests need more
+# packages than the page.
+build_page() { # [page]: installs the packages of the page alone
+    local lock now kind=all options=()
     lock=$(sha256sum web_viewer/package-lock.json)
-    if [ "$(cat build/page-modules.stamp 2>/dev/null)" != "$lock" ] || [ ! -d web_viewer/node_modules ]; then
-        (cd web_viewer && npm ci --no-audit --no-fund --loglevel=error)
-        echo "$lock" >build/page-modules.stamp
+    [ "${1:-}" != page ] || kind=page options=(--omit=dev)
+    if [ ! -d web_viewer/node_modules ] || ! grep -qxF -e "$lock all" -e "$lock $kind" \
+        build/page-modules.stamp 2>/dev/null; then
+        (cd web_viewer && npm ci --no-audit --no-fund --loglevel=error "${options[@]}")
+        echo "$lock $kind" >build/page-modules.stamp
     fi
     now=$(find web_viewer \( -name node_modules -o -name dist \) -prune -o -type f -print0 |
         LC_ALL=C sort -z | xargs -0 sha256sum)

@@ -274,7 +274,7 @@ struct FileOptions {
                    .doc = "Weights by which a shader moves the vertices in wind: bend (0 at the "
                           "ground), flutter of leaves, phase, number of the branch. uv: as "
                           "TEXCOORD_1 and TEXCOORD_2, which most engines import. attribute: as "
-                          "_WIND, for three.js and Blender. color: as COLOR_0, by which viewers "
+                          "_WIND, for three.js. color: as COLOR_0, by which viewers "
                           "multiply the colours. extras.wind of the file names the channels and "
                           "states the displacements in metres.",
                    .group = "file"});

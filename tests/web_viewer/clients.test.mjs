@@ -3,26 +3,20 @@ import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, packages, root, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    bundled,
+    launchBrowser,
+    logEvents,
+    root,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const server = serverUrl({ everySpecies: true });
 const kit = path.join(root, "web_viewer/clients/three");
 let browser;
 let pages;
 let address;
-
-/** Returns a script and what it imports as one text. */
-async function bundled(file) {
-    const { outputFiles } = await packages("esbuild").build({
-        entryPoints: [file],
-        bundle: true,
-        write: false,
-        format: "esm",
-        target: ["es2022"],
-        nodePaths: [path.join(root, "web_viewer/node_modules")],
-    });
-    return outputFiles[0].text;
-}
 
 before(async () => {
     browser = await launchBrowser();

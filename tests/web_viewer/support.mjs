@@ -29,6 +29,20 @@ export async function screenshotFolder() {
     return folder;
 }
 
+/** Returns a script and what it imports as one text. */
+export async function bundled(file) {
+    const { outputFiles } = await packages("esbuild").build({
+        entryPoints: [file],
+        bundle: true,
+        write: false,
+        format: "esm",
+        target: ["es2022"],
+        nodePaths: [path.join(root, "web_viewer/node_modules")],
+        external: ["node:*"],
+    });
+    return outputFiles[0].text;
+}
+
 /** Debian's Chromium with software WebGL, the same on every machine. */
 export async function launchBrowser() {
     const { chromium } = packages("playwright-core");
