@@ -15,14 +15,12 @@ before(async () => {
     page.setDefaultTimeout(60_000);
     const script = await bundled(path.join(root, "tests/web_viewer/engines_page.mjs"));
     const address = `${server}/engines/`;
+    const html = '<!doctype html><canvas></canvas><script type="module" src="page.js"></script>';
     await page.route(`${address}*`, (route) =>
         route.fulfill(
             route.request().url().endsWith(".js")
                 ? { contentType: "text/javascript", body: script }
-                : {
-                      contentType: "text/html",
-                      body: '<!doctype html><canvas></canvas><script type="module" src="page.js"></script>',
-                  },
+                : { contentType: "text/html", body: html },
         ),
     );
     await page.goto(address);
@@ -42,15 +40,26 @@ async function described(route, query) {
 
 function assertBox(found, { min, max }, tolerance, what) {
     for (let axis = 0; axis < 3; ++axis) {
-        assert.ok(Math.abs(found.min[axis] - min[axis]) < tolerance, `${what}: ${found.min} ${min}`);
-        assert.ok(Math.abs(found.max[axis] - max[axis]) < tolerance, `${what}: ${found.max} ${max}`);
+        assert.ok(
+            Math.abs(found.min[axis] - min[axis]) < tolerance,
+            `${what}: ${found.min} ${min}`,
+        );
+        assert.ok(
+            Math.abs(found.max[axis] - max[axis]) < tolerance,
+            `${what}: ${found.max} ${max}`,
+        );
     }
 }
 
 const profiles = ["core", "web", "mobile", "godot", "unity", "unreal", "blender", "cesium"];
 const webp = ["web", "mobile", "godot", "cesium"];
 const products = [
-    { route: "mushrooms/amanita_muscaria", query: "age=0.7", materials: 1, name: "amanita_muscaria" },
+    {
+        route: "mushrooms/amanita_muscaria",
+        query: "age=0.7",
+        materials: 1,
+        name: "amanita_muscaria",
+    },
     { route: "trees/shrub", query: "seed=2", materials: 2, name: "shrub" },
     { route: "colonies/mycena_sanguinolenta", query: "count=5&distinct=2", materials: 1 },
     { route: "leaves/maple", query: "autumn=0.3", materials: 1, name: "maple" },
@@ -63,7 +72,9 @@ for (const profile of profiles)
             const options = `${query}&profile=${profile}&lod=1&texture_size=256`;
             const json = await described(route, options);
             const url = `${server}${json.canonical}`;
-            const size = Math.max(...json.bounds_m.max.map((high, i) => high - json.bounds_m.min[i]));
+            const size = Math.max(
+                ...json.bounds_m.max.map((high, i) => high - json.bounds_m.min[i]),
+            );
             const inBabylon = await opened("babylon", url);
             // Boxes of nodes are made of the boxes of their meshes, and therefore larger.
             if (name) assertBox(inBabylon, json.bounds_m, size / 8000, what);
@@ -77,8 +88,13 @@ for (const profile of profiles)
             const type = webp.includes(profile) ? "image/webp" : "image/jpeg";
             for (const image of read.images) assert.deepEqual(image, [type, 128, 128], what);
             if (name) assert.equal(read.triangles[0], read.stated, what);
-            assert.equal(read.nodes.length, profile === "unreal" && name ? 3 : read.nodes.length, what);
-            if (name) assert.ok(read.nodes[0].startsWith(name) && read.nodes[0].endsWith("_LOD1"), what);
+            assert.equal(
+                read.nodes.length,
+                profile === "unreal" && name ? 3 : read.nodes.length,
+                what,
+            );
+            if (name)
+                assert.ok(read.nodes[0].startsWith(name) && read.nodes[0].endsWith("_LOD1"), what);
         }
     });
 

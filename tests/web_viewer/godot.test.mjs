@@ -1,0 +1,100 @@
+// The Godot add-on in Godot's web export, in headless Chromium against a running server.
+import assert from "node:assert/strict";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { serveProject } from "./godot_project.mjs";
+import { launchBrowser, logEvents, screenshotFolder, serverUrl } from "./support.mjs";
+
+const server = serverUrl({ everySpecies: true });
+const found = {};
+let browser;
+let project;
+let log;
+
+before(async () => {
+    project = await serveProject(server);
+    browser = await launchBrowser();
+    const page = await browser.newPage();
+    log = logEvents(page);
+    const ended = new Promise((resolve, reject) => {
+        page.on("console", (message) => {
+            const [, json] = /^RESULT (.*)$/.exec(message.text()) ?? [];
+            if (json) Object.assign(found, JSON.parse(json));
+            if (found.end) resolve();
+            if (/SCRIPT ERROR|Parse Error/.test(message.text()))
+                reject(new Error(log.console.join("\n")));
+        });
+        setTimeout(() => reject(new Error(log.console.join("\n"))), 100_000).unref();
+    });
+    await page.goto(project.origin);
+    await ended;
+    await page.screenshot({ path: path.join(await screenshotFolder(), "godot.png") });
+});
+
+after(async () => {
+    await browser?.close();
+    project?.close();
+});
+
+async function described(route) {
+    return (await fetch(`${server}/v1/${route}`)).json();
+}
+
+test("a model has its levels, one for each distance, with collision", async () => {
+    const json = await described("mushrooms/amanita_muscaria.json?lod=1&seed=3");
+    const { levels, bodies, solids, statuses } = found.mushroom;
+    assert.deepEqual(statuses, [200]);
+    assert.equal(bodies, 1);
+    assert.ok(solids >= 2);
+    assert.equal(levels.length, 3);
+    for (let axis = 0; axis < 3; ++axis) {
+        assert.ok(Math.abs(levels[0].min[axis] - json.bounds_m.min[axis]) < 1e-4);
+        assert.ok(Math.abs(levels[0].max[axis] - json.bounds_m.max[axis]) < 1e-4);
+    }
+    assert.equal(levels[0].begin, 0);
+    for (const [i, level] of levels.entries()) {
+        assert.match(level.name, new RegExp(`_LOD${i + 1}$`));
+        assert.equal(level.side, 128);
+        assert.ok(level.end > level.begin);
+        if (i > 0) {
+            assert.equal(level.begin, levels[i - 1].end);
+            assert.ok(level.triangles < 0.6 * levels[i - 1].triangles);
+        }
+    }
+});
+
+test("stored files are confirmed, with a version or offline used at once", () => {
+    assert.deepEqual(found.again.statuses, [304]);
+    assert.equal(found.again.levels.length, 3);
+    assert.deepEqual(found.versioned.statuses, [200, 200, 0], "description, file, stored file");
+    assert.deepEqual(found.offline.statuses, [0]);
+    assert.ok(found.offline.bytes > 10_000);
+});
+
+test("a tree moves in wind", () => {
+    for (const level of found.tree.levels) assert.equal(level.material, "ShaderMaterial");
+    assert.equal(found.tree.levels[0].side, 64);
+});
+
+test("a colony is one draw call for each mesh", async () => {
+    const json = await described(
+        "colonies/hypholoma_fasciculare.json?lod=1&count=12&distinct=3&seed=2",
+    );
+    const { parts } = found.colony;
+    const counts = parts.map(({ count }) => count).sort((a, b) => a - b);
+    assert.ok(parts.length <= 4);
+    assert.equal(
+        counts.reduce((sum, count) => sum + count),
+        json.made + 1,
+        "and the stems",
+    );
+});
+
+test("a refusal is reported in the words of the server", () => {
+    assert.equal(found.refused.bytes, 0);
+    const reported = log.console.filter(
+        (line) => /ERROR: /.test(line) && !/script cache/.test(line),
+    );
+    assert.equal(reported.filter((line) => /did you mean 'amanita_muscaria'/.test(line)).length, 1);
+    assert.equal(reported.length, 1, reported.join("\n"));
+});

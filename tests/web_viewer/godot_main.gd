@@ -1,0 +1,88 @@
+extends Node3D
+## Uses the add-on against a server at the page's own address, and prints what it got as lines of
+## JSON that begin with RESULT.
+
+var statuses: Array[int] = []
+var server := SporeprintServer.new()
+
+func report(what: String, found: Dictionary) -> void:
+	found["statuses"] = statuses.duplicate()
+	statuses.clear()
+	print("RESULT ", JSON.stringify({what: found}))
+
+func triangles(mesh: Mesh) -> int:
+	var sum := 0
+	for surface in mesh.get_surface_count():
+		@warning_ignore("integer_division")
+		sum += mesh.surface_get_arrays(surface)[Mesh.ARRAY_INDEX].size() / 3
+	return sum
+
+func shown_model(model: SporeprintModel) -> Dictionary:
+	model.server = server
+	add_child(model)
+	var levels: Array = await model.loaded
+	var found := {"levels": [], "bodies": model.find_children("*", "StaticBody3D", true, false).size(),
+			"solids": model.find_children("*", "CollisionShape3D", true, false).size()}
+	for level in levels:
+		var box: AABB = level.global_transform * level.get_aabb()
+		var material = level.mesh.surface_get_material(0)
+		found.levels.append({"name": level.name, "triangles": triangles(level.mesh),
+				"min": [box.position.x, box.position.y, box.position.z],
+				"max": [box.end.x, box.end.y, box.end.z],
+				"begin": level.visibility_range_begin, "end": level.visibility_range_end,
+				"material": material.get_class(),
+				"side": material.albedo_texture.get_width() if material is BaseMaterial3D
+						else material.get_shader_parameter("base_color").get_width()})
+	return found
+
+func _ready() -> void:
+	server.address = JavaScriptBridge.eval("location.origin")
+	server.fetched.connect(func(_path, status): statuses.append(status))
+	add_child(server)
+
+	var mushroom := SporeprintModel.new()
+	mushroom.parameters = {"texture_size": 256, "seed": 3}
+	mushroom.collision = true
+	report("mushroom", await shown_model(mushroom))
+	var again := SporeprintModel.new()
+	again.parameters = mushroom.parameters
+	again.collision = true
+	again.position = Vector3(0.3, 0.0, 0.0)
+	report("again", await shown_model(again))
+
+	var tree := SporeprintModel.new()
+	tree.product = "trees/shrub"
+	tree.parameters = {"texture_size": 128}
+	tree.wind = true
+	tree.position = Vector3(-0.5, 0.0, -1.5)
+	report("tree", await shown_model(tree))
+
+	var colony := SporeprintColony.new()
+	colony.server = server
+	colony.parameters = {"texture_size": 128, "count": 12, "distinct": 3, "seed": 2}
+	colony.position = Vector3(-0.2, 0.0, 0.0)
+	add_child(colony)
+	var parts: Array = await colony.loaded
+	report("colony", {"parts": parts.map(func(part): return {"name": part.name,
+			"count": part.multimesh.instance_count, "triangles": triangles(part.multimesh.mesh)})})
+
+	var described := await server.description(
+			"/v1/mushrooms/boletus_edulis.json?lod=3&texture_size=128")
+	var versioned: String = described["canonical"] + "&v=" + described["v"]
+	for i in 2:
+		await server.fetch(versioned)
+	report("versioned", {})
+	report("refused", {"bytes": (await server.fetch("/v1/mushrooms/amanita_muscarla.glb")).size()})
+	JavaScriptBridge.eval("fetch('/down')")
+	await get_tree().create_timer(0.5).timeout
+	report("offline", {"bytes": (await server.fetch(mushroom.path())).size()})
+
+	var camera := Camera3D.new()
+	add_child(camera)
+	camera.look_at_from_position(Vector3(0.05, 0.25, 0.75), Vector3(0.05, 0.1, 0.0))
+	var sun := DirectionalLight3D.new()
+	add_child(sun)
+	sun.look_at_from_position(Vector3(1, 2, 1), Vector3.ZERO)
+	for i in 10:
+		await get_tree().process_frame
+	print("RESULT ", JSON.stringify({"end": true}))
