@@ -68,7 +68,8 @@ async function project() {
     );
     files["res://main.tscn"] =
         '[gd_scene load_steps=2 format=3]\n\n' +
-        '[ext_resource type="Script" path="res://main.gd" id="1"]\n\n[node name="Main" type="Node3D"]\nscript = ExtResource("1")\n';
+        '[ext_resource type="Script" path="res://main.gd" id="1"]\n\n' +
+        '[node name="Main" type="Node3D"]\nscript = ExtResource("1")\n';
     files["res://project.godot"] =
         'config_version=5\n\n[application]\nconfig/name="test"\n' +
         'run/main_scene="res://main.tscn"\n\n' +

@@ -1,7 +1,7 @@
 // A typed client, generated from the document when the test runs, compiles under `strict` and calls every operation.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { copyFile, mkdir, rm, symlink, writeFile } from "node:fs/promises";
+import { copyFile, mkdir, readFile, rm, symlink, writeFile } from "node:fs/promises";
 import path from "node:path";
 import test from "node:test";
 import { pathToFileURL } from "node:url";
@@ -26,7 +26,7 @@ test("a generated client compiles and calls every operation of the document", as
     await symlink(modules, path.join(folder, "node_modules"));
     await writeFile(path.join(folder, "openapi.json"), JSON.stringify(document));
     await copyFile(path.join(root, "tests/e2e/openapi/client.mts"), path.join(folder, "client.mts"));
-    run("openapi-typescript/bin/cli.js", "openapi.json", "-o", "api.d.ts");
+    run("openapi-typescript/bin/cli.js", "openapi.json", "-o", "api.ts");
     const compilerOptions = {
         strict: true, noUncheckedIndexedAccess: true, exactOptionalPropertyTypes: true, skipLibCheck: true,
         target: "ES2022", lib: ["ES2022", "DOM", "DOM.Iterable"], module: "NodeNext", types: [],
@@ -40,4 +40,10 @@ test("a generated client compiles and calls every operation of the document", as
     assert.deepEqual(uncalled, [], "operations that no call of the client is of");
     const refused = [...statuses].filter(([, status]) => status !== 200);
     assert.deepEqual(refused, []);
+});
+
+test("the types of the client kit for three.js are those of the document", async () => {
+    const kit = path.join(root, "web_viewer/clients/three");
+    const types = execFileSync(process.execPath, [path.join(kit, "types.mjs"), serverUrl()], { encoding: "utf8" });
+    assert.equal(types, await readFile(path.join(kit, "api.ts"), "utf8"), "run types.mjs again");
 });

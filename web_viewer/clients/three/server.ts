@@ -1,16 +1,12 @@
 // Fetches files of a Sporeprint server, and keeps them for the next visit.
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import { GLTFLoader, type GLTF } from "three/addons/loaders/GLTFLoader.js";
+import type { components } from "./api";
 
 /** The body of POST /v1/sets.glb: species and the parameters of a set and of a mushroom. */
-export interface SetOrder {
-    /** Ids, or mixes as in URLs: "amanita_muscaria:0.7,boletus_edulis:0.3". */
-    species: string[];
-    ages?: number[];
-    seeds?: number;
-    levels?: number[];
-    [parameter: string]: unknown;
-}
+export type SetOrder = components["requestBodies"]["set_order"]["content"]["application/json"];
+
+type Problem = components["schemas"]["problem"];
 
 /** An error response of the server. */
 export class RequestRefused extends Error {
@@ -26,10 +22,7 @@ export class RequestRefused extends Error {
 }
 
 async function refusal(response: Response, url: string): Promise<RequestRefused> {
-    const problem = (await response.json().catch(() => ({}))) as {
-        title?: string;
-        errors?: { detail: string }[];
-    };
+    const problem = (await response.json().catch(() => ({}))) as Partial<Problem>;
     const details = problem.errors?.map(({ detail }) => detail) ?? [
         problem.title ?? response.statusText,
     ];

@@ -99,7 +99,12 @@ function imageBytes(scene: Scene): number {
 
 async function walk(server: string, species: string[]): Promise<ForestReport> {
     const sporeprint = new Sporeprint(server);
-    const options = { profile: "web", lods: "msft", wind: "attribute", collision: "nodes" };
+    const options = {
+        profile: "web",
+        lods: "msft",
+        wind: "attribute",
+        collision: "nodes",
+    } as const;
     const [mushrooms, tree] = await Promise.all([
         sporeprint.loadSet({
             species,
