@@ -302,7 +302,7 @@ void add_service_schemas(Value& schemas, const Atlas&) {
         ->set("errors", list_of(objects({{"parameter", text}, {"detail", text}})));
     problem.find("properties")
         ->set("canonical", object({{"type", "string"},
-                                   {"description", "On 410: the address of today's answer."}}));
+                                   {"description", "On 410: the address of the current file."}}));
     schemas
         .set("about", objects({{"name", text},
                                {"version", text},

@@ -64,24 +64,11 @@ std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents)
     return out;
 }
 
-std::vector<Quantized16> quantized_rotations(std::span<const glm::vec4> rotations) {
-    std::vector<Quantized16> out;
-    out.reserve(rotations.size());
-    for (const glm::vec4& q : rotations)
-        out.push_back({rounded(q.x * 32767.0F), rounded(q.y * 32767.0F), rounded(q.z * 32767.0F),
-                       rounded(q.w * 32767.0F)});
-    return out;
-}
-
-std::vector<Quantized16> filtered_rotations(std::span<const glm::vec4> rotations) {
-    std::vector<Quantized16> out(rotations.size());
-    meshopt_encodeFilterQuat(out.data(), out.size(), sizeof(Quantized16), 12, &rotations[0].x);
-    return out;
-}
-
-std::vector<glm::uvec3> filtered_vectors(std::span<const glm::vec3> values, int bits) {
-    std::vector<glm::uvec3> out(values.size());
-    meshopt_encodeFilterExp(out.data(), out.size(), sizeof(glm::uvec3), bits, &values[0].x);
+std::vector<std::uint32_t> filtered_vectors(std::span<const float> values, std::size_t components,
+                                            int bits) {
+    std::vector<std::uint32_t> out(values.size());
+    meshopt_encodeFilterExp(out.data(), values.size() / components, components * sizeof(float),
+                            bits, values.data());
     return out;
 }
 

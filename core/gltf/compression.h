@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <glm/ext/vector_uint3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
@@ -46,18 +45,14 @@ inline constexpr int most_quantized = 16383;
 /// what quantized_tangents() returns, within a degree.
 [[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents);
 
-/// Returns unit quaternions x, y, z, w as normalised integers (value / 32767), within 0.004 degrees.
-[[nodiscard]] std::vector<Quantized16> quantized_rotations(std::span<const glm::vec4> rotations);
-
-/// Returns unit quaternions for the filter QUATERNION, with 12 bits for each component: decoding
-/// returns the rotation within 0.1 degrees.
-[[nodiscard]] std::vector<Quantized16> filtered_rotations(std::span<const glm::vec4> rotations);
-
 /// Returns vectors for the filter EXPONENTIAL: decoding returns each component within 2^-bits of the
 /// largest of its vector.
 ///
-/// bits  of the integers, 1..24
-[[nodiscard]] std::vector<glm::uvec3> filtered_vectors(std::span<const glm::vec3> values, int bits);
+/// values      of all vectors, one after another
+/// components  of each vector
+/// bits        of the integers, 1..24
+[[nodiscard]] std::vector<std::uint32_t> filtered_vectors(std::span<const float> values,
+                                                          std::size_t components, int bits);
 
 /// Returns a vertex stream encoded by meshoptimizer, vertex codec 0 (EXT_meshopt_compression, mode
 /// ATTRIBUTES).

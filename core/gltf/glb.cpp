@@ -1,5 +1,6 @@
 #include "core/gltf/glb.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -61,75 +62,60 @@ void check_transform(const glm::dvec4& rotation, const glm::vec3& scale) {
         throw GenerationError("a node has a scale of nothing");
 }
 
-// Bits of the places and scales of compressed instances: errors are 2^-15 of the distance from the
-// node and of the size.
+// Bits of the transforms of compressed instances: errors are 2^-15 of the distance from the node and
+// of the size.
 constexpr int bits_of_instances = 15;
 
-/// Writes the transforms of instances; nodes with equal ones share their accessors.
+/// Writes the transforms of instances, as floats, since CesiumJS reads no other rotations; nodes with
+/// equal ones share their accessors.
 class InstanceWriter {
   public:
     InstanceWriter(GlbGeometry storage, Tables& tables, Body& geometries)
-        : storage_(storage), tables_(tables), geometries_(geometries) {}
+        : is_compressed_(storage == GlbGeometry::compressed),
+          tables_(tables),
+          geometries_(geometries) {}
 
     /// Returns the attributes of a node's instances, as JSON members.
     ///
-    /// step  factor of all scales
+    /// step  of the positions of their mesh, by which the node is scaled
     std::string attributes_of(const std::vector<GlbTransform>& places, double step) {
-        std::vector<glm::vec3> translations, scales;
-        std::vector<glm::vec4> rotations;
+        std::vector<float> translations, rotations, scales;
+        const auto put_vector = [](std::vector<float>& out, const auto& vector) {
+            for (int k = 0; k < vector.length(); ++k) out.push_back(vector[k]);
+        };
         for (const GlbTransform& place : places) {
             check_transform(place.rotation, glm::vec3(place.scale));
-            translations.emplace_back(place.translation);
-            rotations.emplace_back(place.rotation);
-            scales.emplace_back(step * place.scale);
+            put_vector(translations, glm::vec3(place.translation / step));
+            put_vector(rotations, glm::vec4(place.rotation));
+            put_vector(scales, glm::vec3(place.scale));
         }
         std::string attributes;
-        append(attributes += "\"TRANSLATION\":", vectors(translations));
-        append(attributes += ",\"ROTATION\":", quaternions(rotations));
-        append(attributes += ",\"SCALE\":", vectors(scales));
+        append(attributes += "\"TRANSLATION\":", accessor_of(translations, "VEC3", 3));
+        append(attributes += ",\"ROTATION\":", accessor_of(rotations, "VEC4", 4));
+        append(attributes += ",\"SCALE\":", accessor_of(scales, "VEC3", 3));
         return attributes;
     }
 
   private:
-    std::size_t vectors(const std::vector<glm::vec3>& values) {
-        return storage_ == GlbGeometry::compressed
-                   ? add(filtered_vectors(values, bits_of_instances), float_component, "VEC3", {},
-                         "EXPONENTIAL")
-                   : add(values, float_component, "VEC3", {});
-    }
-
-    std::size_t quaternions(const std::vector<glm::vec4>& values) {
-        switch (storage_) {
-            case GlbGeometry::floats:
-                break;
-            case GlbGeometry::quantized:
-                return add(quantized_rotations(values), i16_component, "VEC4", normalized);
-            case GlbGeometry::compressed:
-                return add(filtered_rotations(values), i16_component, "VEC4", normalized,
-                           "QUATERNION");
-        }
-        return add(values, float_component, "VEC4", {});
-    }
-
-    /// Returns the accessor of items, a new one unless these bytes are written already.
-    template <class T>
-    std::size_t add(const std::vector<T>& items, int component, const char* type,
-                    const std::string& more, const char* filter = nullptr) {
-        const std::span<const std::uint8_t> bytes = bytes_of(items);
-        const auto [found, is_new] =
-            written_.try_emplace({type, Bytes(bytes.begin(), bytes.end())}, tables_.count);
+    /// Returns the accessor of vectors, a new one unless these are written already.
+    std::size_t accessor_of(const std::vector<float>& values, const char* type,
+                            std::size_t components) {
+        const auto [found, is_new] = written_.try_emplace({type, values}, tables_.count);
         if (!is_new) return found->second;
+        const std::vector<std::uint32_t> filtered =
+            is_compressed_ ? filtered_vectors(values, components, bits_of_instances)
+                           : std::vector<std::uint32_t>();
         const auto out = std::make_shared<Bytes>();
-        tables_.transforms(bytes, items.size(), component, type, more, filter != nullptr, *out,
-                           filter);
+        tables_.transforms(is_compressed_ ? bytes_of(filtered) : bytes_of(values),
+                           values.size() / components, type, is_compressed_, *out);
         geometries_.emplace_back(out);
         return found->second;
     }
 
-    GlbGeometry storage_;
+    bool is_compressed_;
     Tables& tables_;
     Body& geometries_;
-    std::map<std::pair<std::string, Bytes>, std::size_t> written_;
+    std::map<std::pair<std::string, std::vector<float>>, std::size_t> written_;
 };
 
 /// Returns the member `extensions` of an object, with a leading comma; empty for none.
@@ -150,9 +136,7 @@ std::string extensions_json(const std::vector<GlbExtension>& extensions, Extensi
 /// step    factor of the scale, by which the positions of its mesh were divided
 std::string node_json(const GlbNode& node, double step, const std::string& instances,
                       Extensions& used) {
-    // Instances are scaled each.
-    const glm::vec3 translation(node.translation),
-        scale(instances.empty() ? step * node.scale : node.scale);
+    const glm::vec3 translation(node.translation), scale(step * node.scale);
     const glm::vec4 rotation(node.rotation);
     check_transform(node.rotation, scale);
     std::string json = "{\"name\":";
@@ -204,6 +188,25 @@ Slice head_of(std::string json, std::size_t binary) {
     put(at, static_cast<std::uint32_t>(binary));
     put(at, std::uint32_t{0x004E4942});  // "BIN"
     return Slice(std::move(head));
+}
+
+/// Returns the steps of the positions of all meshes. Those that have instances have one step, so that
+/// levels of detail with instances at equal places share these.
+std::vector<float> steps_of(const GlbScene& scene) {
+    std::vector<float> steps;
+    steps.reserve(scene.meshes.size());
+    for (const GlbMesh& mesh : scene.meshes) steps.push_back(step_of(mesh, scene.geometry));
+    if (scene.geometry == GlbGeometry::floats) return steps;
+    float largest = 0.0F;
+    for (const bool is_set : {false, true})
+        for (const GlbNode& node : scene.nodes) {
+            if (node.instances.empty() || !node.mesh || *node.mesh >= steps.size()) continue;
+            if (is_set)
+                steps[*node.mesh] = largest;
+            else
+                largest = std::max(largest, steps[*node.mesh]);
+        }
+    return steps;
 }
 
 TextureData data_for(const GlbMaterial& material) {
@@ -329,9 +332,7 @@ Body glb(const GlbScene& scene) {
     Extensions used;
     if (scene.geometry != GlbGeometry::floats) used.require(quantization);
     if (scene.geometry == GlbGeometry::compressed) used.require(meshopt_compression);
-    std::vector<float> steps;
-    steps.reserve(scene.meshes.size());
-    for (const GlbMesh& mesh : scene.meshes) steps.push_back(step_of(mesh, scene.geometry));
+    const std::vector<float> steps = steps_of(scene);
     const std::string meshes = meshes_json(scene, steps, tables, geometries);
     const NodeData nodes = node_data(scene, steps, tables, used, geometries);
     AnimationData clip;

@@ -138,8 +138,7 @@ struct GlbScene {
 ///
 /// Quantised positions and their targets are i16 in steps by which the nodes of the mesh are
 /// scaled, so that the origin stays the pivot. Normals are normalised i16, tangents normalised i8;
-/// normals of targets stay floats, for their differences exceed 1. Rotations of instances are
-/// normalised i16.
+/// normals of targets stay floats, for their differences exceed 1.
 ///
 /// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
 ///          targets, the instances of each node that has some, the clip, then each image with its

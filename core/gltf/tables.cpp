@@ -33,12 +33,11 @@ std::size_t Tables::stream(std::span<const std::uint8_t> data, std::size_t items
     return close_stream(data, items, compressed, out, filter);
 }
 
-std::size_t Tables::transforms(std::span<const std::uint8_t> data, std::size_t items, int component,
-                               const char* type, const std::string& more, bool compressed,
-                               Bytes& out, const char* filter) {
-    append_accessor(items, component, type, more);
+std::size_t Tables::transforms(std::span<const std::uint8_t> data, std::size_t items,
+                               const char* type, bool compressed, Bytes& out) {
+    append_accessor(items, float_component, type, {});
     append_view(data.size(), compressed, {}, 0);
-    return close_stream(data, items, compressed, out, filter);
+    return close_stream(data, items, compressed, out, "EXPONENTIAL");
 }
 
 std::size_t Tables::compressed_triangles(std::span<const std::uint32_t> indices,

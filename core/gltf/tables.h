@@ -57,10 +57,10 @@ struct Tables {
                        const char* type, const std::string& more, bool compressed, Bytes& out,
                        const char* filter = nullptr);
 
-    /// Adds an accessor of transforms of instances, which are no vertices, as stream() does.
-    std::size_t transforms(std::span<const std::uint8_t> data, std::size_t items, int component,
-                           const char* type, const std::string& more, bool compressed, Bytes& out,
-                           const char* filter = nullptr);
+    /// Adds an accessor of transforms of instances, which are no vertices, as floats; compressed
+    /// ones are prepared by filtered_vectors().
+    std::size_t transforms(std::span<const std::uint8_t> data, std::size_t items, const char* type,
+                           bool compressed, Bytes& out);
 
     /// Adds an accessor of compressed triangles, and appends their bytes to `out`.
     std::size_t compressed_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,

@@ -137,15 +137,7 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
 }
 
 std::uint64_t bytes_of_instance(const FileOptions& file) {
-    switch (file.compress) {
-        case Compression::none:
-            break;
-        case Compression::quantize:
-            return 32;
-        case Compression::meshopt:
-            return 18;
-    }
-    return 40;
+    return file.compress == Compression::meshopt ? 20 : 40;
 }
 
 Value bounds_value(const Bounds& box) {

@@ -85,7 +85,7 @@ struct MushroomParams {
             &P::animation,
             Info{.name = "animation",
                  .doc = "A clip in the file: growth from button to decay as morph targets, images "
-                        "of the age asked for."});
+                        "of the requested age."});
         visit(&P::frames, Info{.name = "frames",
                                .min = 2,
                                .max = 16,

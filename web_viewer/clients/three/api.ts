@@ -13,7 +13,7 @@ export interface components {
                 parameter: string;
                 detail: string;
             }[];
-            /** @description On 410: the address of today's answer. */
+            /** @description On 410: the address of the current file. */
             canonical?: string;
         };
         set_manifest: {
@@ -432,7 +432,7 @@ export interface components {
                     };
                     /**
                      * animation
-                     * @description A clip in the file: growth from button to decay as morph targets, images of the age asked for.
+                     * @description A clip in the file: growth from button to decay as morph targets, images of the requested age.
                      * @default none
                      * @enum {string}
                      */
