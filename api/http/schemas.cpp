@@ -42,9 +42,11 @@ Value bounds_schema() { return objects({{"min", triple()}, {"max", triple()}}); 
 
 Value levels_schema() {
     Value coverage = typed("number");
-    coverage.set("description",
-                 "Height over that of the screen down to which this level is drawn; below that of "
-                 "the last there is nothing to see.");
+    coverage.set(
+        "description",
+        "Longest side of the box over the height of the screen, down to which this level is "
+        "drawn; below that of "
+        "the last there is nothing to see.");
     return list_of(objects({{"lod", typed("integer")},
                             {"vertices", typed("integer")},
                             {"triangles", typed("integer")},

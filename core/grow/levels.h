@@ -19,8 +19,8 @@ namespace sporeprint {
 struct Level {
     int lod = 0;
     std::uint64_t vertices = 0, triangles = 0;
-    /// Height of the bounding box over that of the screen down to which this level is drawn; below
-    /// it the next one looks the same. Below that of the last level there is nothing to see.
+    /// Longest side of the bounding box over the height of the screen, down to which this level is
+    /// drawn; below it the next one looks the same. Below that of the last level there is nothing to see.
     double screen_coverage = 0.0;
 };
 

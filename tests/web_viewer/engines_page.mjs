@@ -43,9 +43,15 @@ async function babylon(url) {
             ),
             side: shown[0].material.albedoTexture?.getSize().width,
             clips: scene.animationGroups.map(({ name }) => name),
-            targets: shown.reduce(
-                (sum, { morphTargetManager }) => sum + (morphTargetManager?.numTargets ?? 0),
-                0,
+            weights: scene.animationGroups.flatMap((clip) =>
+                [clip.from, clip.to].map((frame) => {
+                    clip.start();
+                    clip.goToFrame(frame);
+                    const targets = shown[0].morphTargetManager;
+                    return [...Array(targets.numTargets).keys()].map(
+                        (i) => targets.getTarget(i).influence,
+                    );
+                }),
             ),
         };
     } finally {

@@ -55,7 +55,10 @@ test("a model has its levels, one for each distance, with collision", async () =
     for (const [i, level] of levels.entries()) {
         assert.match(level.name, new RegExp(`_LOD${i + 1}$`));
         assert.equal(level.side, 128);
-        assert.ok(level.end > level.begin);
+        const size = Math.max(...json.bounds_m.max.map((high, k) => high - json.bounds_m.min[k]));
+        // The camera of the model has a field of view of 75 degrees.
+        const end = size / (2 * json.levels[i].screen_coverage * Math.tan((75 * Math.PI) / 360));
+        assert.ok(Math.abs(level.end / end - 1) < 1e-3, `${level.end} ${end}`);
         if (i > 0) {
             assert.equal(level.begin, levels[i - 1].end);
             assert.ok(level.triangles < 0.6 * levels[i - 1].triangles);
@@ -71,8 +74,21 @@ test("stored files are confirmed, with a version or offline used at once", () =>
     assert.ok(found.offline.bytes > 10_000);
 });
 
-test("a tree moves in wind", () => {
-    for (const level of found.tree.levels) assert.equal(level.material, "ShaderMaterial");
+test("some level is visible on both sides of each distance, and none beyond the last", () => {
+    const { pixels } = found.seen;
+    assert.equal(pixels.length, 6);
+    for (const count of pixels.slice(0, 5)) assert.ok(count > 0, `${pixels}`);
+    assert.equal(pixels[5], 0);
+});
+
+test("a tree moves in wind", async () => {
+    const file = await fetch(`${server}/v1/trees/shrub.glb?lod=1&wind=uv&texture_size=128`);
+    const bytes = Buffer.from(await file.arrayBuffer());
+    const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
+    for (const level of found.tree.levels) {
+        assert.equal(level.material, "ShaderMaterial");
+        assert.ok(Math.abs(level.sway - json.asset.extras.wind.sway_m) < 1e-6);
+    }
     assert.equal(found.tree.levels[0].side, 64);
 });
 

@@ -30,6 +30,7 @@ func shown_model(model: SporeprintModel) -> Dictionary:
 				"min": [box.position.x, box.position.y, box.position.z],
 				"max": [box.end.x, box.end.y, box.end.z],
 				"begin": level.visibility_range_begin, "end": level.visibility_range_end,
+				"sway": material.get_shader_parameter("sway") if material is ShaderMaterial else 0.0,
 				"material": material.get_class(),
 				"side": material.albedo_texture.get_width() if material is BaseMaterial3D
 						else material.get_shader_parameter("base_color").get_width()})
@@ -76,6 +77,36 @@ func _ready() -> void:
 	JavaScriptBridge.eval("fetch('/down')")
 	await get_tree().create_timer(0.5).timeout
 	report("offline", {"bytes": (await server.fetch(mushroom.path())).size()})
+
+	# Where no level was seen before, beside each distance at which levels change.
+	var seen := []
+	for level in mushroom.find_children("*_LOD?", "MeshInstance3D", true, false):
+		for nearly in [0.97, 1.03]:
+			var view := SubViewport.new()
+			view.size = Vector2i(64, 64)
+			view.own_world_3d = true
+			view.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+			add_child(view)
+			var copy: Node3D = level.get_parent().duplicate()
+			view.add_child(copy)
+			var middle: Vector3 = level.custom_aabb.get_center()
+			var eye := Camera3D.new()
+			view.add_child(eye)
+			eye.fov = 2.0
+			eye.far = 1e4
+			eye.look_at_from_position(
+					middle + Vector3(0.0, 0.0, nearly * level.visibility_range_end), middle)
+			for i in 3:
+				await RenderingServer.frame_post_draw
+			var picture := view.get_texture().get_image()
+			var ground := picture.get_pixel(0, 0)
+			var different := 0
+			for x in 64:
+				for y in 64:
+					different += 1 if picture.get_pixel(x, y) != ground else 0
+			seen.append(different)
+			view.queue_free()
+	report("seen", {"pixels": seen})
 
 	var camera := Camera3D.new()
 	add_child(camera)

@@ -3,6 +3,7 @@ import { createHash } from "node:crypto";
 import { createServer } from "node:http";
 import { readFile, readdir } from "node:fs/promises";
 import path from "node:path";
+import { gzipSync } from "node:zlib";
 import { root } from "./support.mjs";
 
 const addon = path.join(root, "web_viewer/clients/godot/addons/sporeprint");
@@ -67,7 +68,7 @@ async function project() {
         "utf8",
     );
     files["res://main.tscn"] =
-        '[gd_scene load_steps=2 format=3]\n\n' +
+        "[gd_scene load_steps=2 format=3]\n\n" +
         '[ext_resource type="Script" path="res://main.gd" id="1"]\n\n' +
         '[node name="Main" type="Node3D"]\nscript = ExtResource("1")\n';
     files["res://project.godot"] =
@@ -105,7 +106,12 @@ export async function serveProject(sporeprint) {
             });
             response.statusCode = found.status;
             response.setHeader("ETag", found.headers.get("etag") ?? "");
-            return response.end(Buffer.from(await found.arrayBuffer()));
+            const body = Buffer.from(await found.arrayBuffer());
+            // As the server compressed it for the browser.
+            const encoding = found.headers.get("content-encoding");
+            if (encoding !== "gzip") return response.end(body);
+            response.setHeader("Content-Encoding", encoding);
+            return response.end(gzipSync(body));
         }
         if (url === "/down") down = true;
         const name = /^\/engine\/([\w.]+)$/.exec(url)?.[1];

@@ -4,6 +4,7 @@ import {
     BatchedMesh,
     Box3,
     Group,
+    InstancedMesh,
     Matrix4,
     Mesh,
     Sphere,
@@ -83,6 +84,8 @@ function partsOf(node: Object3D, place: Matrix4): Part[] {
     node.updateMatrixWorld(true);
     node.traverse((child) => {
         if (!(child instanceof Mesh) || child.userData["collision"] !== undefined) return;
+        if (child instanceof InstancedMesh)
+            throw new Error("a Field cannot draw instances of a file; ask without instancing=gpu");
         const { geometry, material } = child as Mesh<BufferGeometry, Material>;
         parts.push({ geometry, material, matrix: place.clone().multiply(child.matrixWorld) });
     });
@@ -138,7 +141,7 @@ interface Member {
     levels: { batch: BatchedMesh; instance: number }[][];
     prototype: Prototype;
     centre: Vector3;
-    height: number;
+    size: number;
     /** Index of the level that is shown; -1 for none. */
     shown: number;
 }
@@ -168,11 +171,11 @@ export class Field extends Group {
             const prototype = prototypes[index];
             if (!prototype) throw new Error(`there is no prototype ${index}`);
             const ball = prototype.bounds.getBoundingSphere(new Sphere()).applyMatrix4(matrix);
-            const { y } = prototype.bounds.getSize(new Vector3());
+            const { x, y, z } = prototype.bounds.getSize(new Vector3());
             this.members.push({
                 prototype,
                 centre: ball.center,
-                height: y * matrix.getMaxScaleOnAxis(),
+                size: Math.max(x, y, z) * matrix.getMaxScaleOnAxis(),
                 shown: -1,
                 levels: prototype.levels.map(({ parts }) =>
                     parts.map((part) => {
@@ -198,7 +201,7 @@ export class Field extends Group {
         const perHeight = 1 / (2 * Math.tan((camera.fov * Math.PI) / 360));
         const counts: FieldCounts = { individuals: 0, triangles: 0, levels: [] };
         for (const member of this.members) {
-            const coverage = (member.height * perHeight) / eye.distanceTo(member.centre);
+            const coverage = (member.size * perHeight) / eye.distanceTo(member.centre);
             this.show(member, levelFor(member, coverage, this.hysteresis));
             if (member.shown < 0) continue;
             counts.individuals += 1;

@@ -16,6 +16,7 @@ export class MaterialVariants {
 
     private readonly original = new Map<Mesh, Material | Material[]>();
     private readonly loaded = new Set<Material>();
+    private turn = 0;
 
     constructor(
         private readonly gltf: GLTF,
@@ -34,7 +35,8 @@ export class MaterialVariants {
         this.root.traverse((node) => {
             if (node instanceof Mesh) meshes.push(node);
         });
-        await Promise.all(meshes.map((mesh) => this.assign(mesh, index)));
+        const turn = ++this.turn;
+        await Promise.all(meshes.map((mesh) => this.assign(mesh, index, turn)));
     }
 
     /** Materials that were loaded for variants, which whoever disposes of the model frees too. */
@@ -42,7 +44,8 @@ export class MaterialVariants {
         return this.loaded;
     }
 
-    private async assign(mesh: Mesh, index: number): Promise<void> {
+    /** @param turn of the call of show(): only the last one assigns materials */
+    private async assign(mesh: Mesh, index: number, turn: number): Promise<void> {
         const extensions = mesh.userData["gltfExtensions"] as
             Record<string, { mappings: Mapping[] } | undefined> | undefined;
         const mapping = extensions?.[extension]?.mappings.find(({ variants }) =>
@@ -55,7 +58,9 @@ export class MaterialVariants {
             return;
         }
         const { parser } = this.gltf;
-        mesh.material = (await parser.getDependency("material", mapping.material)) as Material;
+        const material = (await parser.getDependency("material", mapping.material)) as Material;
+        if (turn !== this.turn) return;
+        mesh.material = material;
         parser.assignFinalMaterial(mesh);
         this.loaded.add(mesh.material);
     }

@@ -14,29 +14,43 @@ extends Node3D
 ## Emitted after load_colony(), with one node for each draw call; none after an error.
 signal loaded(parts: Array[GeometryInstance3D])
 
-func _ready() -> void:
-	load_colony()
+var _parts: Array[GeometryInstance3D] = []
+var _turn := 0
 
-## Fetches the colony and shows it instead of the one before.
+func _ready() -> void:
+	# Later, so that who adds the node can wait for `loaded`.
+	load_colony.call_deferred()
+
+## Fetches the colony and shows it instead of the one before. If it is called again before it ends,
+## only the last call shows something.
 func load_colony() -> Array[GeometryInstance3D]:
-	var parts: Array[GeometryInstance3D] = []
+	_turn += 1
+	var turn := _turn
 	if server == null:
 		server = SporeprintServer.new()
 		add_child(server)
-	var query := {"profile": "godot", "lod": lod}
-	query.merge(parameters, true)
-	var scene := await server.scene(
-			"/v1/colonies/%s.glb?%s" % [species, HTTPClient.new().query_string_from_dict(query)])
+	var requested := path()
+	var body := await server.fetch(requested)
+	var parts: Array[GeometryInstance3D] = []
+	if turn != _turn:
+		return parts
+	var scene := server.parse(body, requested)
 	if scene != null:
-		for child in get_children():
-			if child != server:
-				child.queue_free()
+		for part in _parts:
+			part.queue_free()
 		parts = _batched(scene)
 		scene.free()
 		for part in parts:
 			add_child(part)
+		_parts = parts
 	loaded.emit(parts)
 	return parts
+
+## Returns the path of the file below the server.
+func path() -> String:
+	var query := {"profile": "godot", "lod": lod}
+	query.merge(parameters, true)
+	return "/v1/colonies/%s.glb?%s" % [species, HTTPClient.new().query_string_from_dict(query)]
 
 ## Returns a MultiMesh for each mesh of a scene, with its places.
 static func _batched(scene: Node3D) -> Array[GeometryInstance3D]:

@@ -19,32 +19,42 @@ extends Node3D
 @export var wind := false
 ## Vertical field of view of the camera for which levels are switched, degrees.
 @export_range(10.0, 150.0) var field_of_view_deg := 75.0
-## Share of a range by which neighbouring levels overlap, so that they do not flicker.
-@export_range(0.0, 0.5) var hysteresis := 0.1
 
 ## Emitted after load_model(), with the levels, finest first; none after an error.
 signal loaded(levels: Array[GeometryInstance3D])
 
 const WIND := preload("sporeprint_wind.gdshader")
 
-func _ready() -> void:
-	load_model()
+var _shown: Node3D
+var _turn := 0
 
-## Fetches the model and shows it instead of the one before; returns its levels, finest first.
+func _ready() -> void:
+	# Later, so that who adds the node can wait for `loaded`.
+	load_model.call_deferred()
+
+## Fetches the model and shows it instead of the one before; returns its levels, finest first. If it
+## is called again before it ends, only the last call shows something.
 func load_model() -> Array[GeometryInstance3D]:
-	var found: Array[GeometryInstance3D] = []
+	_turn += 1
+	var turn := _turn
+	var requested := path()
+	var moves := wind
 	if server == null:
 		server = SporeprintServer.new()
 		add_child(server)
-	var scene := await server.scene(path())
+	var body := await server.fetch(requested)
+	var found: Array[GeometryInstance3D] = []
+	if turn != _turn:
+		return found
+	var scene := server.parse(body, requested)
 	if scene != null:
-		for child in get_children():
-			if child != server:
-				child.queue_free()
+		if is_instance_valid(_shown):
+			_shown.queue_free()
+		_shown = scene
 		add_child(scene)
 		found = _levels_of(scene)
 		_switch(found, scene.get_meta("sporeprint"))
-		if wind:
+		if moves:
 			_sway(found, scene.get_meta("sporeprint"))
 	loaded.emit(found)
 	return found
@@ -71,22 +81,31 @@ func _switch(levels: Array[GeometryInstance3D], extras: Dictionary) -> void:
 	var box: Dictionary = extras.get("bounds_m", {})
 	if levels.size() < 2 or box.is_empty() or not extras.has("levels"):
 		return
+	# Distances are measured to the middle of a box: all levels have the same one.
+	var whole: AABB = levels[0].get_aabb()
+	var size := 0.0
+	for level in levels:
+		whole = whole.merge(level.get_aabb())
+	for axis in 3:
+		size = maxf(size, box["max"][axis] - box["min"][axis])
+	var scale_here := global_basis.get_scale()
+	size *= maxf(scale_here.x, maxf(scale_here.y, scale_here.z))
 	# A level is shown down to its share of the height of the screen.
-	var height: float = box["max"][1] - box["min"][1]
 	var near := 0.0
 	for i in levels.size():
 		var share: float = extras["levels"][i]["screen_coverage"]
-		var far := height / (2.0 * share * tan(0.5 * deg_to_rad(field_of_view_deg)))
+		var far := size / (2.0 * share * tan(0.5 * deg_to_rad(field_of_view_deg)))
+		levels[i].custom_aabb = whole
 		levels[i].visibility_range_begin = near
-		levels[i].visibility_range_begin_margin = hysteresis * near
 		levels[i].visibility_range_end = far
-		levels[i].visibility_range_end_margin = hysteresis * far
 		near = far
 
 ## Replaces the materials by those that wind moves.
 func _sway(levels: Array[GeometryInstance3D], extras: Dictionary) -> void:
 	var of_file: Dictionary = extras.get("wind", {})
 	for level in levels:
+		# The shader leans by at most 3.6 times the displacement of a breeze.
+		level.extra_cull_margin = 3.6 * of_file.get("sway_m", 0.0)
 		var mesh: Mesh = level.mesh
 		for surface in mesh.get_surface_count():
 			var plain := mesh.surface_get_material(surface) as BaseMaterial3D
@@ -99,4 +118,7 @@ func _sway(levels: Array[GeometryInstance3D], extras: Dictionary) -> void:
 			moved.set_shader_parameter("normal_map", plain.normal_texture)
 			moved.set_shader_parameter("roughness_map", plain.roughness_texture)
 			moved.set_shader_parameter("sway", of_file.get("sway_m", 0.0))
+			if plain.emission_enabled:
+				moved.set_shader_parameter(
+						"glow", plain.emission * plain.emission_energy_multiplier)
 			mesh.surface_set_material(surface, moved)

@@ -17,45 +17,67 @@ extends Node
 ## answer (200, 304), or 0 if the stored file was used without one.
 signal fetched(path: String, status: int)
 
+## How often a request is repeated while the server is busy (429, 503).
+const MOST_RETRIES := 5
+
 ## Returns the body of a path such as "/v1/mushrooms/amanita_muscaria.glb?lod=1", fetched or stored;
 ## empty after an error, which is reported with the words of the server.
 func fetch(path: String) -> PackedByteArray:
 	var file := folder.path_join((address + path).sha256_text()) if folder else ""
-	var stored := file != "" and FileAccess.file_exists(file + ".etag")
+	var stored := file != "" and FileAccess.file_exists(file) \
+			and FileAccess.file_exists(file + ".etag")
 	if stored and _is_versioned(path):
 		fetched.emit(path, 0)
 		return FileAccess.get_file_as_bytes(file)
 	var headers := PackedStringArray()
 	if stored:
 		headers.append("If-None-Match: " + FileAccess.get_file_as_string(file + ".etag"))
-	var request := HTTPRequest.new()
-	request.timeout = timeout_s
-	add_child(request)
-	var error := request.request(address + path, headers)
-	if error != OK:
-		request.queue_free()
-		push_error("Sporeprint: %s%s: %s" % [address, path, error_string(error)])
-		return PackedByteArray()
-	var answer: Array = await request.request_completed
-	request.queue_free()
-	var result: int = answer[0]
-	var status: int = answer[1]
-	var body: PackedByteArray = answer[3]
-	if result == HTTPRequest.RESULT_SUCCESS and status == 200:
+	var answer := await _answer(path, headers)
+	var status: int = answer.status
+	if status == 200:
 		if file != "":
-			_store(file, body, _header(answer[2], "etag"))
+			_store(file, answer.body, _header(answer.headers, "etag"))
 		fetched.emit(path, status)
-		return body
-	if stored and (result != HTTPRequest.RESULT_SUCCESS or status == 304):
-		fetched.emit(path, status if result == HTTPRequest.RESULT_SUCCESS else 0)
+		return answer.body
+	# Without a connection, and while the server is busy or fails, what is stored is better than
+	# nothing.
+	if stored and (status == 0 or status == 304 or status == 429 or status >= 500):
+		fetched.emit(path, 304 if status == 304 else 0)
 		return FileAccess.get_file_as_bytes(file)
-	push_error("Sporeprint: %s%s: %s" % [address, path, _reason(result, status, body)])
+	push_error("Sporeprint: %s%s: %s" % [address, path, _reason(answer)])
 	return PackedByteArray()
 
-## Returns a scene made of a GLB file of the server, and the extras of the file in its metadata
+## Returns status, headers, body and words of the answer to a request; status 0 for none.
+func _answer(path: String, headers: PackedStringArray) -> Dictionary:
+	for retry in MOST_RETRIES + 1:
+		var request := HTTPRequest.new()
+		request.timeout = timeout_s
+		# A browser decompresses, but leaves the header by which Godot would do it again.
+		request.accept_gzip = not OS.has_feature("web")
+		add_child(request)
+		var error := request.request(address + path, headers)
+		if error != OK:
+			request.queue_free()
+			return {"status": 0, "words": error_string(error)}
+		var answer: Array = await request.request_completed
+		request.queue_free()
+		if answer[0] != HTTPRequest.RESULT_SUCCESS:
+			return {"status": 0, "words": "no connection (HTTPRequest result %d)" % answer[0]}
+		if retry == MOST_RETRIES or not answer[1] in [429, 503]:
+			return {"status": answer[1], "headers": answer[2], "body": answer[3]}
+		var wait := _header(answer[2], "retry-after").to_float()
+		await get_tree().create_timer(clampf(wait, 0.2, 30.0)).timeout
+	return {"status": 0, "words": "no answer"}
+
+## Returns a scene made of a GLB file of the server, with the extras of the file in its metadata
 ## "sporeprint"; null after an error.
 func scene(path: String) -> Node3D:
-	var body := await fetch(path)
+	return parse(await fetch(path), path)
+
+## Returns a scene made of the body of a GLB file, as scene() does; null for an empty body.
+##
+## path  of the file, for messages
+func parse(body: PackedByteArray, path: String) -> Node3D:
 	if body.is_empty():
 		return null
 	var document := GLTFDocument.new()
@@ -93,6 +115,11 @@ func _store(file: String, body: PackedByteArray, etag: String) -> void:
 			return
 		out.store_buffer(part[1])
 		out.close()
+		# A full disk takes a part of a file.
+		if FileAccess.get_file_as_bytes(part[0]) != part[1]:
+			DirAccess.remove_absolute(part[0])
+			push_warning("Sporeprint: %s could not be stored as a whole" % part[0])
+			return
 
 static func _header(headers: PackedStringArray, wanted: String) -> String:
 	for line in headers:
@@ -100,13 +127,13 @@ static func _header(headers: PackedStringArray, wanted: String) -> String:
 			return line.substr(line.find(":") + 1).strip_edges()
 	return ""
 
-static func _reason(result: int, status: int, body: PackedByteArray) -> String:
-	if result != HTTPRequest.RESULT_SUCCESS:
-		return "no connection (HTTPRequest result %d)" % result
-	var problem = JSON.parse_string(body.get_string_from_utf8())
+static func _reason(answer: Dictionary) -> String:
+	if answer.status == 0:
+		return answer.words
+	var problem = JSON.parse_string(answer.body.get_string_from_utf8())
 	if not problem is Dictionary:
-		return "status %d" % status
-	var words: PackedStringArray = [str(problem.get("detail", "status %d" % status))]
+		return "status %d" % answer.status
+	var words: PackedStringArray = [str(problem.get("detail", "status %d" % answer.status))]
 	for error in problem.get("errors", []):
 		words.append("%s: %s" % [error.get("parameter", error.get("pointer", "")), error["detail"]])
 	return "; ".join(words)
