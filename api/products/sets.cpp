@@ -277,26 +277,26 @@ Body file_of(const Context& context, const SetSpec& spec, const SetPlan& plan, i
     return grow_set(spec, plan, *context.atlas, links, execution).glb;
 }
 
-template <Output output>
+template <Output Made>
 Plan plan_set(RouteCall& call) {
     Context& context = call.context;
     refuse_query(call.target, call.errors);
     SetRequest requested = read_set(call.request.body, *context.atlas, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    constexpr bool is_made = output != Output::manifest;
-    if (output == Output::file) requested.spec.packing = SetPacking::one_file;
+    constexpr bool is_made = Made != Output::manifest;
+    if (Made == Output::file) requested.spec.packing = SetPacking::one_file;
     const auto spec = std::make_shared<const SetSpec>(std::move(requested.spec));
     Resource resource;
     resource.version = version_of(*spec, *context.atlas);
-    resource.key = key_of(*spec, ending_of(output), resource.version);
-    resource.type = type_of(output);
-    resource.file_name = std::string("mushrooms") + ending_of(output);
-    resource.is_linked = output == Output::file && has_addresses(spec->mushroom.textures);
+    resource.key = key_of(*spec, ending_of(Made), resource.version);
+    resource.type = type_of(Made);
+    resource.file_name = std::string("mushrooms") + ending_of(Made);
+    resource.is_linked = Made == Output::file && has_addresses(spec->mushroom.textures);
     resource.requested_version = std::move(requested.version);
     resource.estimate_cost = [&context, spec](const Caches&) {
         const Cost cost = guessed_cost(*spec, is_made, *context.atlas);
-        if (output == Output::file) refuse_in_one_file(*spec);
-        if (output == Output::archive && has_addresses(spec->mushroom.textures))
+        if (Made == Output::file) refuse_in_one_file(*spec);
+        if (Made == Output::archive && has_addresses(spec->mushroom.textures))
             throw Impossible("/textures",
                              "links of files in an archive lead nowhere; ask for embedded or none");
         refuse_large(*spec, cost, is_made);
@@ -311,8 +311,8 @@ Plan plan_set(RouteCall& call) {
             for (const Estimate& file : one.files)
                 refuse_over_budget(context.options, file, false, false, spec->mushroom.file);
         execution.observer(Step::build);
-        if (output == Output::archive) return archive(context, *spec, plan, execution);
-        if (output == Output::file) {
+        if (Made == Output::archive) return archive(context, *spec, plan, execution);
+        if (Made == Output::file) {
             refuse_over_budget(context.options, plan);
             return file_of(context, *spec, plan, depth, execution);
         }

@@ -201,6 +201,7 @@ Collision colony_collision(const ColonySite& site, const std::vector<ColonyMembe
                            const std::vector<std::vector<CollisionShape>>& shapes,
                            const ColonyParams& params, const ColonyTraits& traits) {
     std::vector<Collision> models;
+    models.reserve(shapes.size());
     for (const std::vector<CollisionShape>& of_model : shapes) models.push_back(body_of(of_model));
     Collision collision;
     std::vector<std::size_t> first_of(models.size());

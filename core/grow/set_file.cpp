@@ -66,10 +66,12 @@ void place_on_grid(std::vector<SetMember>& members) {
         static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(members.size()))));
     const std::size_t rows = (members.size() + columns - 1) / columns;
     const double step = grid_spacing * widest;
-    for (std::size_t i = 0; i < members.size(); ++i)
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        const std::size_t column = i % columns, row = i / columns;
         members[i].place = {
-            step * (static_cast<double>(i % columns) - 0.5 * static_cast<double>(columns - 1)), 0.0,
-            step * (static_cast<double>(i / columns) - 0.5 * static_cast<double>(rows - 1))};
+            step * (static_cast<double>(column) - 0.5 * static_cast<double>(columns - 1)), 0.0,
+            step * (static_cast<double>(row) - 0.5 * static_cast<double>(rows - 1))};
+    }
 }
 
 /// Sets the sway of all meshes, relative to the largest displacement; returns that.

@@ -214,6 +214,7 @@ TreeCount count_of_bark(const TreeShape& shape, int lod) {
     double rings = 0.0;
     // A sampled tree may have fewer segments than expected, and therefore show a lower order.
     std::vector<double> fewest;
+    fewest.reserve(orders.size());
     for (const ExpectedOrder& order : orders) fewest.push_back(0.75 * order.edges);
     const auto highest = static_cast<int>(orders.size());
     for (const Group& group : groups_of(highest, lowest_order(fewest, lod), lod)) {

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/gltf/glb.h"
@@ -71,7 +70,7 @@ class Decoded {
             EXPECT_EQ(from[0], 0xa0) << "the extension requires version 0";
             EXPECT_EQ(meshopt_decodeVertexBuffer(out.data(), count, stride, from, length), 0);
             const Value* const filter = json.at_pointer(extension + "/filter");
-            const std::string_view name = filter ? filter->as_string() : "NONE";
+            const std::string name(filter ? filter->as_string() : "NONE");
             if (name == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), count, stride);
             if (name == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), count, stride);
         }
