@@ -45,8 +45,7 @@ Value levels_schema() {
     coverage.set(
         "description",
         "Longest side of the box over the height of the screen, down to which this level is "
-        "drawn; below that of "
-        "the last there is nothing to see.");
+        "drawn; below that of the last there is nothing to see.");
     return list_of(objects({{"lod", typed("integer")},
                             {"vertices", typed("integer")},
                             {"triangles", typed("integer")},

@@ -45,8 +45,8 @@ inline constexpr int most_quantized = 16383;
 /// what quantized_tangents() returns, within a degree.
 [[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents);
 
-/// Returns vectors for the filter EXPONENTIAL: decoding returns each component within 2^-bits of the
-/// largest of its vector.
+/// Returns vectors for the filter EXPONENTIAL: decoding returns each component within 2^-bits of
+/// the largest of its vector.
 ///
 /// values      of all vectors, one after another
 /// components  of each vector

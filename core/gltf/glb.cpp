@@ -62,12 +62,12 @@ void check_transform(const glm::dvec4& rotation, const glm::vec3& scale) {
         throw GenerationError("a node has a scale of nothing");
 }
 
-// Bits of the transforms of compressed instances: errors are 2^-15 of the distance from the node and
-// of the size.
+// Bits of the transforms of compressed instances: errors are 2^-15 of the distance from the node
+// and of the size.
 constexpr int bits_of_instances = 15;
 
-/// Writes the transforms of instances, as floats, since CesiumJS reads no other rotations; nodes with
-/// equal ones share their accessors.
+/// Writes the transforms of instances, as floats, which need no normalisation by readers; nodes
+/// with equal ones share their accessors.
 class InstanceWriter {
   public:
     InstanceWriter(GlbGeometry storage, Tables& tables, Body& geometries)
@@ -190,8 +190,8 @@ Slice head_of(std::string json, std::size_t binary) {
     return Slice(std::move(head));
 }
 
-/// Returns the steps of the positions of all meshes. Those that have instances have one step, so that
-/// levels of detail with instances at equal places share these.
+/// Returns the steps of the positions of all meshes. Those that have instances have one step, so
+/// that levels of detail with instances at equal places share these.
 std::vector<float> steps_of(const GlbScene& scene) {
     std::vector<float> steps;
     steps.reserve(scene.meshes.size());

@@ -323,19 +323,23 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     std::vector<Level> levels =
         is_chain ? levels_of(spec, atlas, box) : std::vector<Level>{{params.lod}};
     Grown grown;
-    std::vector<std::vector<GlbPrimitive>> primitives;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        primitives.push_back({{&meshes[i].bark, 0, {}}});
-        if (leafy) primitives.back().push_back({&meshes[i].leaves, 1, {}});
         grown.vertices += levels[i].vertices = meshes[i].vertices();
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }
-    if (params.instancing == LeafInstancing::gpu)
+    if (params.instancing == LeafInstancing::gpu) {
         add_grouped_levels(
             scene, product_name(spec, atlas), levels, params.file.lods,
             [&](std::size_t i, const std::string& name) { add_instanced(scene, meshes[i], name); });
-    else
+    } else {
+        std::vector<std::vector<GlbPrimitive>> primitives;
+        primitives.reserve(meshes.size());
+        for (const TreeMeshes& level : meshes) {
+            primitives.push_back({{&level.bark, 0, {}}});
+            if (leafy) primitives.back().push_back({&level.leaves, 1, {}});
+        }
         add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
+    }
     scene.extras_json = dump(extras_value(extras, write(params), box, first.triangles(),
                                           {levels, params.file.lods}, first.wind));
     Collision collision;

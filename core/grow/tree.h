@@ -18,9 +18,9 @@ namespace sporeprint {
 /// For a sampled topology the expected numbers are used.
 ///
 /// pre     check() reports nothing for the spec
-/// throws  Impossible (path "/instancing") for instanced leaves with wind, (path "/order") naming the expected number if it exceeds most_tips, (path
-///         "/leaves/per_tip") if it exceeds most_leaves, (path "/twig_length") for segments too
-///         long for their radius
+/// throws  Impossible (path "/instancing") for instanced leaves with wind, (path "/order") naming
+///         the expected number if it exceeds most_tips, (path "/leaves/per_tip") if it exceeds
+///         most_leaves, (path "/twig_length") for segments too long for their radius
 [[nodiscard]] Estimate estimate(const TreeSpec& spec);
 
 /// The meshes of a tree; each is one draw call.
