@@ -25,6 +25,19 @@ using Quantized8 = std::array<std::int8_t, 4>;
 /// positions, and their error is still 1 / 32766 of the largest coordinate.
 inline constexpr int most_quantized = 16383;
 
+/// The vertices of a file in their order, as indices of those of a mesh; empty for all as they are.
+using VertexOrder = std::span<const std::uint32_t>;
+
+/// Returns the order in which triangles first use vertices; those that none uses come last.
+///
+/// indices  each below `vertices`
+[[nodiscard]] std::vector<std::uint32_t> order_of_first_use(std::span<const std::uint32_t> indices,
+                                                            std::size_t vertices);
+
+/// Returns the bits of every eighth difference between successive vectors: about an eighth of what
+/// an encoder needs for them.
+[[nodiscard]] std::size_t bits_of_steps(std::span<const Quantized16> values, VertexOrder order);
+
 /// Returns vectors as integers: each times the step is within half a step of the vector.
 ///
 /// step  at least largest_coordinate() / most_quantized
@@ -39,11 +52,16 @@ inline constexpr int most_quantized = 16383;
 
 /// Returns unit vectors for the filter OCTAHEDRAL, with 10 bits for each coordinate: decoding
 /// returns what quantized_normals() returns, within 0.3 degrees.
-[[nodiscard]] std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals);
+///
+/// reused  a vector whose memory is used
+[[nodiscard]] std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals,
+                                                          VertexOrder order = {},
+                                                          std::vector<Quantized16> reused = {});
 
 /// Returns tangents for the filter OCTAHEDRAL, with 8 bits for each coordinate: decoding returns
 /// what quantized_tangents() returns, within a degree.
-[[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents);
+[[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents,
+                                                          VertexOrder order = {});
 
 /// Returns vectors for the filter EXPONENTIAL: decoding returns each component within 2^-bits of
 /// the largest of its vector.
@@ -54,19 +72,24 @@ inline constexpr int most_quantized = 16383;
 [[nodiscard]] std::vector<std::uint32_t> filtered_vectors(std::span<const float> values,
                                                           std::size_t components, int bits);
 
-/// Returns a vertex stream encoded by meshoptimizer, vertex codec 0 (EXT_meshopt_compression, mode
+/// Appends a vertex stream encoded by meshoptimizer, vertex codec 0 (EXT_meshopt_compression, mode
 /// ATTRIBUTES).
 ///
 /// data    `count` items of `stride` bytes; padding bytes are 0
 /// stride  a multiple of 4, at most 256
+/// out     with room for the stream before it is encoded, lest it is moved
+/// returns the number of bytes appended
 /// throws  GenerationError if the encoder refuses
-[[nodiscard]] Bytes encoded_vertices(std::span<const std::uint8_t> data, std::size_t count,
-                                     std::size_t stride);
+std::size_t append_encoded_vertices(std::span<const std::uint8_t> data, std::size_t count,
+                                    std::size_t stride, Bytes& out);
 
-/// Returns a triangle list encoded by meshoptimizer, index codec 1 (mode TRIANGLES). Decoding
+/// Appends a triangle list encoded by meshoptimizer, index codec 1 (mode TRIANGLES). Decoding
 /// returns the same triangles in the same order, each perhaps from another of its corners.
 ///
+/// out     with room for the list before it is encoded, lest it is moved
+/// returns the number of bytes appended
 /// throws  GenerationError if the encoder refuses
-[[nodiscard]] Bytes encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices);
+std::size_t append_encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,
+                                     Bytes& out);
 
 }  // namespace sporeprint

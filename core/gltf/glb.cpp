@@ -250,7 +250,8 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, 
                 throw GenerationError("a primitive wears a material that there is not");
             const TextureData data =
                 has_material ? data_for(scene.materials[primitive.material]) : TextureData::none;
-            Geometry shape = geometry_of(*primitive.mesh, data, scene.sway, storage, step, tables);
+            Geometry shape = geometry_of(*primitive.mesh, data, scene.sway, storage, step,
+                                         primitive.targets.empty(), tables);
             geometries.emplace_back(std::move(shape.bytes));
             TargetData morph = target_data(primitive.targets, primitive.mesh->positions.size(),
                                            storage, step, tables);

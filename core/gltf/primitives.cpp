@@ -49,9 +49,8 @@ std::string bounds_of(std::span<const Quantized16> values) {
 }
 
 /// Adds positions as integers.
-std::size_t add_quantized(std::span<const glm::vec3> values, float step, bool compressed,
-                          Tables& tables, Bytes& out) {
-    const std::vector<Quantized16> items = quantized(values, step);
+std::size_t add_quantized(const std::vector<Quantized16>& items, bool compressed, Tables& tables,
+                          Bytes& out) {
     return tables.stream(bytes_of(items), items.size(), i16_component, "VEC3", bounds_of(items),
                          compressed, out);
 }
@@ -59,16 +58,19 @@ std::size_t add_quantized(std::span<const glm::vec3> values, float step, bool co
 /// Adds the sway of all vertices, if the mesh has it.
 ///
 /// throws  GenerationError for texture coordinates of a mesh without others, which have to precede
-void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, Tables& tables,
-              Geometry& geometry, Bytes& out) {
+void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, VertexOrder order,
+              Tables& tables, Geometry& geometry, Bytes& out) {
     const std::size_t n = mesh.sway.size();
     if (n == 0) return;
+    const auto sway = [&](std::size_t i) { return mesh.sway[order.empty() ? i : order[i]]; };
     if (format != GlbSway::texture_coordinates) {
         std::vector<std::array<std::uint8_t, 4>> items;
         items.reserve(n);
-        for (const Sway& of : mesh.sway)
+        for (std::size_t i = 0; i < n; ++i) {
+            const Sway of = sway(i);
             items.push_back({normalized_byte(of.bend), normalized_byte(of.flutter),
                              normalized_byte(of.phase), normalized_byte(of.branch)});
+        }
         return geometry.attribute(
             format == GlbSway::color ? "COLOR_0" : "_WIND",
             tables.stream(bytes_of(items), n, u8_component, "VEC4", normalized, compressed, out));
@@ -78,7 +80,8 @@ void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, 
     std::vector<std::array<std::uint16_t, 2>> first, second;
     first.reserve(n);
     second.reserve(n);
-    for (const Sway& of : mesh.sway) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const Sway of = sway(i);
         first.push_back(normalized_coordinates({of.bend, of.phase}));
         second.push_back(normalized_coordinates({of.flutter, of.branch}));
     }
@@ -89,39 +92,75 @@ void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, 
 
 constexpr const char* octahedral = "OCTAHEDRAL";
 
+/// Returns the order in which triangles first use the vertices of a mesh if it makes a compressed
+/// file smaller, else nothing. Triangles then need a byte less for each vertex. Vertices of a skin or
+/// of leaves need about as many bytes as before; those of swept rings, where each is close to the one
+/// before it, need a quarter more, and are recognised by their positions.
+std::vector<std::uint32_t> compact_order(const Mesh& mesh, std::span<const Quantized16> positions) {
+    std::vector<std::uint32_t> order = order_of_first_use(mesh.indices, positions.size());
+    if (10 * bits_of_steps(positions, order) > 11 * bits_of_steps(positions, {})) order.clear();
+    return order;
+}
+
+/// Returns the indices of a mesh whose vertices have another order.
+std::vector<std::uint32_t> renumbered(std::span<const std::uint32_t> indices, VertexOrder order) {
+    std::vector<std::uint32_t> place(order.size()), out;
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    out.reserve(indices.size());
+    for (const std::uint32_t index : indices) out.push_back(place[index]);
+    return out;
+}
+
 /// Writes quantised geometry.
 ///
-/// step  of the positions
+/// step      of the positions
+/// renumber  whether vertices may have another order if they are compressed
 Geometry quantized_geometry(const Mesh& mesh, TextureData data, GlbSway sway, float step,
-                            bool compressed, Tables& tables) {
+                            bool compressed, bool renumber, Tables& tables) {
     check_mesh(mesh, data);
     const std::size_t n = mesh.positions.size();
     const auto bytes = std::make_shared<Bytes>();
+    // Room for all streams as if none became smaller; pages that are never written cost nothing.
+    bytes->reserve(n * 32 + mesh.indices.size() * 4 + 4096);
     Geometry out;
-    out.attribute("POSITION", add_quantized(mesh.positions, step, compressed, tables, *bytes));
-    const std::vector<Quantized16> normals =
-        compressed ? octahedral_normals(mesh.normals) : quantized_normals(mesh.normals);
-    out.attribute("NORMAL", tables.stream(bytes_of(normals), n, i16_component, "VEC3", normalized,
+    std::vector<Quantized16> items = quantized(mesh.positions, step);
+    std::vector<std::uint32_t> order, triangles;
+    if (compressed && renumber) order = compact_order(mesh, items);
+    if (!order.empty()) {
+        std::vector<Quantized16> ordered;
+        ordered.reserve(n);
+        for (const std::uint32_t i : order) ordered.push_back(items[i]);
+        items = std::move(ordered);
+        triangles = renumbered(mesh.indices, order);
+    }
+    out.attribute("POSITION", add_quantized(items, compressed, tables, *bytes));
+    items = compressed ? octahedral_normals(mesh.normals, order, std::move(items))
+                       : quantized_normals(mesh.normals);
+    out.attribute("NORMAL", tables.stream(bytes_of(items), n, i16_component, "VEC3", normalized,
                                           compressed, *bytes, octahedral));
     if (data == TextureData::all) {
-        const std::vector<Quantized8> tangents =
-            compressed ? octahedral_tangents(mesh.tangents) : quantized_tangents(mesh.tangents);
+        const std::vector<Quantized8> tangents = compressed
+                                                     ? octahedral_tangents(mesh.tangents, order)
+                                                     : quantized_tangents(mesh.tangents);
         out.attribute("TANGENT", tables.stream(bytes_of(tangents), n, i8_component, "VEC4",
                                                normalized, compressed, *bytes, octahedral));
     }
     if (data != TextureData::none) {
         std::vector<std::array<std::uint16_t, 2>> coordinates;
         coordinates.reserve(n);
-        for (const glm::vec2& uv : mesh.texture_coordinates)
-            coordinates.push_back(normalized_coordinates(uv));
+        for (std::size_t i = 0; i < n; ++i)
+            coordinates.push_back(
+                normalized_coordinates(mesh.texture_coordinates[order.empty() ? i : order[i]]));
         out.attribute("TEXCOORD_0", tables.stream(bytes_of(coordinates), n, u16_component, "VEC2",
                                                   normalized, compressed, *bytes));
     }
-    add_sway(mesh, data != TextureData::none, sway, compressed, tables, out, *bytes);
+    add_sway(mesh, data != TextureData::none, sway, compressed, order, tables, out, *bytes);
     const bool small = n <= 65535;
     const int component = small ? u16_component : u32_component;
     if (compressed) {
-        out.indices_accessor = tables.compressed_triangles(mesh.indices, n, component, *bytes);
+        out.indices_accessor = tables.compressed_triangles(order.empty() ? mesh.indices : triangles,
+                                                           n, component, *bytes);
+        bytes->shrink_to_fit();
     } else {
         const std::size_t length = mesh.indices.size() * (small ? 2 : 4);
         Bytes indices(padded(length));
@@ -168,7 +207,7 @@ Geometry float_geometry(const Mesh& mesh, TextureData data, GlbSway sway, Tables
                       tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
     Bytes weights;
-    add_sway(mesh, has_coordinates, sway, false, tables, out, weights);
+    add_sway(mesh, has_coordinates, sway, false, {}, tables, out, weights);
     chunk.append(std::span<const std::uint8_t>(weights));
     if (small)
         for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
@@ -184,11 +223,11 @@ Geometry float_geometry(const Mesh& mesh, TextureData data, GlbSway sway, Tables
 }  // namespace
 
 Geometry geometry_of(const Mesh& mesh, TextureData data, GlbSway sway, GlbGeometry storage,
-                     float step, Tables& tables) {
+                     float step, bool renumber, Tables& tables) {
     return storage == GlbGeometry::floats
                ? float_geometry(mesh, data, sway, tables)
                : quantized_geometry(mesh, data, sway, step, storage == GlbGeometry::compressed,
-                                    tables);
+                                    renumber, tables);
 }
 
 TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices,
@@ -214,8 +253,9 @@ TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertice
     for (const MorphTarget& target : targets) {
         out.targets += out.targets.empty() ? ",\"targets\":[" : ",";
         append(out.targets += "{\"POSITION\":",
-               floats ? add_floats(target.positions, true)
-                      : add_quantized(target.positions, step, compressed, tables, *bytes));
+               floats
+                   ? add_floats(target.positions, true)
+                   : add_quantized(quantized(target.positions, step), compressed, tables, *bytes));
         if (!target.normals.empty())
             append(out.targets += ",\"NORMAL\":", add_floats(target.normals, false));
         out.targets += '}';

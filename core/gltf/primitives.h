@@ -33,9 +33,10 @@ enum class TextureData { none, coordinates, all };
 /// data      of its images
 /// sway      where that of the mesh is written, if it has one
 /// step      of the positions; 1 for floats
+/// renumber  whether compressed vertices may have another order, which those of targets have not
 /// throws    GenerationError for a mesh that is empty or lacks what its material needs
 [[nodiscard]] Geometry geometry_of(const Mesh& mesh, TextureData data, GlbSway sway,
-                                   GlbGeometry storage, float step, Tables& tables);
+                                   GlbGeometry storage, float step, bool renumber, Tables& tables);
 
 /// The morph targets of a primitive.
 struct TargetData {

@@ -45,8 +45,8 @@ std::size_t Tables::compressed_triangles(std::span<const std::uint32_t> indices,
     const std::size_t size = component == u16_component ? 2 : 4;
     append_accessor(indices.size(), component, "SCALAR", {});
     append_view(indices.size() * size, true, {}, index_target);
-    return close_compressed_view(encoded_triangles(indices, vertices), indices.size(), size,
-                                 "TRIANGLES", out);
+    return close_compressed_view(append_encoded_triangles(indices, vertices, out), indices.size(),
+                                 size, "TRIANGLES", out);
 }
 
 std::size_t Tables::vectors(std::span<const glm::vec3> values, const std::string& more) {
@@ -90,8 +90,8 @@ std::size_t Tables::close_stream(std::span<const std::uint8_t> data, std::size_t
                                  bool compressed, Bytes& out, const char* filter) {
     if (!compressed) return close_view(data, out);
     const std::size_t stride = data.size() / items;
-    const Bytes encoded = encoded_vertices(data, items, stride);
-    return close_compressed_view(encoded, items, stride, "ATTRIBUTES", out, filter);
+    return close_compressed_view(append_encoded_vertices(data, items, stride, out), items, stride,
+                                 "ATTRIBUTES", out, filter);
 }
 
 std::size_t Tables::close_view(std::span<const std::uint8_t> data, Bytes& out) {
@@ -102,18 +102,19 @@ std::size_t Tables::close_view(std::span<const std::uint8_t> data, Bytes& out) {
     return count++;
 }
 
-std::size_t Tables::close_compressed_view(const Bytes& encoded, std::size_t items,
-                                          std::size_t stride, const char* mode, Bytes& out,
-                                          const char* filter) {
+std::size_t Tables::close_compressed_view(std::size_t length, std::size_t items, std::size_t stride,
+                                          const char* mode, Bytes& out, const char* filter) {
     ((views += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"buffer\":0,";
     append(views += "\"byteOffset\":", binary);
-    append(views += ",\"byteLength\":", encoded.size());
+    append(views += ",\"byteLength\":", length);
     append(views += ",\"byteStride\":", stride);
     append(views += ",\"count\":", items);
     ((views += ",\"mode\":\"") += mode) += '"';
     if (filter) ((views += ",\"filter\":\"") += filter) += '"';
-    views += "}}";
-    return close_view(encoded, out);
+    views += "}}}";
+    out.resize(padded(out.size()));
+    binary += padded(length);
+    return count++;
 }
 
 }  // namespace sporeprint::gltf

@@ -83,7 +83,10 @@ struct Tables {
 
     std::size_t close_view(std::span<const std::uint8_t> data, Bytes& out);
 
-    std::size_t close_compressed_view(const Bytes& encoded, std::size_t items, std::size_t stride,
+    /// Closes the view of encoded bytes at the end of `out`, and pads them.
+    ///
+    /// length  of the encoded bytes
+    std::size_t close_compressed_view(std::size_t length, std::size_t items, std::size_t stride,
                                       const char* mode, Bytes& out, const char* filter = nullptr);
 };
 

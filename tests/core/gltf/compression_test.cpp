@@ -278,13 +278,51 @@ TEST(Compression, BothPartsOfATreeHaveOneScale) {
     const Decoded file(grow_tree(spec, atlas()).glb);
     const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
     const std::array<const Mesh*, 2> parts = {&meshes.bark, &meshes.leaves};
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        EXPECT_LE(largest_difference(
-                      parts[i]->positions,
-                      file.vectors(file.number("/meshes/0/primitives/" + std::to_string(i) +
-                                               "/attributes/POSITION")),
-                      scale),
-                  0.9 * static_cast<double>(scale));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Mesh& part = *parts[i];
+        const std::string primitive = "/meshes/0/primitives/" + std::to_string(i) + '/';
+        // Bark and leaves are numbered by first use, and are the same triangles.
+        const std::vector<std::uint32_t> order =
+            order_of_first_use(part.indices, part.positions.size());
+        std::vector<glm::vec3> positions;
+        for (const std::uint32_t k : order) positions.push_back(part.positions[k]);
+        EXPECT_LE(
+            largest_difference(positions,
+                               file.vectors(file.number(primitive + "attributes/POSITION")), scale),
+            0.9 * static_cast<double>(scale));
+        std::vector<std::uint32_t> indices = file.indices(file.number(primitive + "indices"));
+        for (std::uint32_t& index : indices) index = order.at(index);
+        EXPECT_EQ(rotated(indices), rotated(part.indices)) << i;
+    }
+}
+
+RC_GTEST_PROP(Compression, TheOrderOfFirstUseHasEachVertexOnce, ()) {
+    const auto vertices = *rc::gen::inRange<std::size_t>(1, 60);
+    const auto indices = *rc::gen::container<std::vector<std::uint32_t>>(
+        rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(vertices)));
+    const std::vector<std::uint32_t> order = order_of_first_use(indices, vertices);
+    std::vector<std::uint32_t> place(vertices, 1000);
+    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+    RC_ASSERT(order.size() == vertices);
+    RC_ASSERT(std::find(place.begin(), place.end(), 1000U) == place.end());
+    std::uint32_t next = 0;
+    for (const std::uint32_t index : indices) {
+        RC_ASSERT(place[index] <= next);
+        next = std::max(next, place[index] + 1);
+    }
+    for (std::uint32_t i = next; i + 1 < vertices; ++i) RC_ASSERT(order[i] < order[i + 1]);
+}
+
+// Vertices along a line need fewer bits than the same in zigzag.
+TEST(Compression, BitsOfStepsCountHowFarVerticesAreApart) {
+    std::vector<Quantized16> line;
+    std::vector<std::uint32_t> zigzag;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        line.push_back({static_cast<std::int16_t>(8 * i), 0, 0, 0});
+        zigzag.push_back(i % 2 == 0 ? i : 63 - i);
+    }
+    EXPECT_EQ(bits_of_steps(line, {}), 8u * 4u);
+    EXPECT_GT(bits_of_steps(line, zigzag), bits_of_steps(line, {}));
 }
 
 // Leaves of a tree, each with a size and a breadth of its own.
