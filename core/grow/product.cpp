@@ -137,7 +137,7 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
 }
 
 std::uint64_t bytes_of_instance(const FileOptions& file) {
-    return file.compress == Compression::meshopt ? 20 : 40;
+    return file.compress == Compression::meshopt ? 18 : 40;
 }
 
 Value bounds_value(const Bounds& box) {

@@ -264,7 +264,8 @@ TEST(Compression, InstancesAndNodesKeepTheirSizes) {
                 return of_node;
             };
             const float expected = largest(plain) * factor(plain);
-            EXPECT_NEAR(largest(file) * factor(file), expected, 1e-4F * expected);
+            EXPECT_NEAR(largest(file) * factor(file), expected,
+                        (instancing == Instancing::gpu ? 1e-3F : 1e-4F) * expected);
         }
     }
 }
@@ -348,7 +349,7 @@ TEST(Compression, InstancesStandAndTurnAsTheyDid) {
         EXPECT_LE(largest_difference(translations, vectors(file, "TRANSLATION"), step),
                   static_cast<double>(largest_coordinate(translations)) / 8192.0);
         EXPECT_LE(largest_difference(scales, vectors(file, "SCALE"), 1.0F),
-                  static_cast<double>(largest_coordinate(scales)) / 8192.0);
+                  static_cast<double>(largest_coordinate(scales)) / 512.0);
         const auto rotations = [&](const Decoded& of) {
             return of.rotations(of.number(places + "ROTATION"));
         };
