@@ -77,7 +77,7 @@ using VertexOrder = std::span<const std::uint32_t>;
 ///
 /// data    `count` items of `stride` bytes; padding bytes are 0
 /// stride  a multiple of 4, at most 256
-/// out     with room for the stream before it is encoded, lest it is moved
+/// out     with capacity for the stream before it is encoded, lest it is moved
 /// returns the number of bytes appended
 /// throws  GenerationError if the encoder refuses
 std::size_t append_encoded_vertices(std::span<const std::uint8_t> data, std::size_t count,
@@ -86,7 +86,7 @@ std::size_t append_encoded_vertices(std::span<const std::uint8_t> data, std::siz
 /// Appends a triangle list encoded by meshoptimizer, index codec 1 (mode TRIANGLES). Decoding
 /// returns the same triangles in the same order, each perhaps from another of its corners.
 ///
-/// out     with room for the list before it is encoded, lest it is moved
+/// out     with capacity for the list before it is encoded, lest it is moved
 /// returns the number of bytes appended
 /// throws  GenerationError if the encoder refuses
 std::size_t append_encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,

@@ -120,7 +120,7 @@ Geometry quantized_geometry(const Mesh& mesh, TextureData data, GlbSway sway, fl
     check_mesh(mesh, data);
     const std::size_t n = mesh.positions.size();
     const auto bytes = std::make_shared<Bytes>();
-    // Room for all streams as if none became smaller; pages that are never written cost nothing.
+    // Memory for all streams as if none became smaller; pages that are never written cost nothing.
     bytes->reserve(n * 32 + mesh.indices.size() * 4 + 4096);
     Geometry out;
     std::vector<Quantized16> items = quantized(mesh.positions, step);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <compare>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <numeric>
 #include <tuple>
 
@@ -51,6 +52,26 @@ double area(const Mesh& mesh) {
         sum += std::sqrt(glm::dot(n, n));
     }
     return 0.5 * sum;
+}
+
+SurfaceMoments surface_moments(const Mesh& mesh) {
+    SurfaceMoments sum;
+    glm::dmat3 squares(0.0);  // of positions, from the origin
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = corner(mesh, i), b = corner(mesh, i + 1), c = corner(mesh, i + 2),
+                         all = a + b + c;
+        const double own = 0.5 * glm::length(glm::cross(b - a, c - a));
+        sum.area += own;
+        sum.middle += own / 3.0 * all;
+        // The mean of x y over a triangle is a twelfth of the products of its corners and their sum.
+        squares += own / 12.0 *
+                   (glm::outerProduct(a, a) + glm::outerProduct(b, b) + glm::outerProduct(c, c) +
+                    glm::outerProduct(all, all));
+    }
+    if (!(sum.area > 0.0)) return {};
+    sum.middle /= sum.area;
+    sum.covariance = squares / sum.area - glm::outerProduct(sum.middle, sum.middle);
+    return sum;
 }
 
 namespace {

@@ -26,22 +26,27 @@ struct Foliage {
 [[nodiscard]] std::size_t foliage_count(int lod, std::size_t leaves);
 
 /// Returns the number of triangles of each leaf at a level of detail, by the number of all leaves:
-/// 4, 8, 12 or 16.
+/// 2, 4, 8, 12 or 16.
 [[nodiscard]] std::size_t leaf_triangles(int lod, std::size_t leaves);
 
 /// Returns the vertices of foliage_leaf() of so many triangles.
 [[nodiscard]] std::size_t leaf_vertices(std::size_t triangles);
 
-/// Returns flat leaves that cover what all leaves cover, each in place of neighbours in the order of
-/// the tree. Such a leaf lies in the plane of its group's first two principal axes, and its area is
-/// what the group covers: with S the mean section of the group's ellipsoid and A the total area of
-/// its leaves, 2 S (1 - exp(-A / 2 S)), since leaves in a small volume hide each other.
+/// Returns flat leaves that cover what all leaves cover, each in place of a group of neighbours in
+/// the tree, the closest of which are joined first. Such a leaf lies in the plane of its group's
+/// first two principal axes, and its area is about what the group covers: with S the mean section of
+/// the group's ellipsoid and A the total area of its leaves, 2 S (1 - exp(-A / 2 S)), since leaves in
+/// a small volume hide each other.
 ///
-/// leaf   the mesh of which the result has copies; a foliage_leaf() of four triangles
+/// leaf   the mesh of which the leaves are copies
+/// cover  the mesh of which the result has copies; a flat foliage_leaf() of two or four triangles
 /// count  at least 1; at least as many leaves as leaves are returned unchanged
-/// source the Poisson model of foliage, after Monsi and Saeki
+/// share  area of a leaf by that which its group covers
+/// cost   O(leaves) while `count` is a fixed share of them, a microsecond for each
+/// source the Poisson model of foliage, after Monsi and Saeki; the clustering of Ward (1963)
 [[nodiscard]] std::vector<PlacedLeaf> grouped(const Tree& tree, std::span<const PlacedLeaf> leaves,
-                                              const Mesh& leaf, std::size_t count);
+                                              const Mesh& leaf, const Mesh& cover,
+                                              std::size_t count, double share = 1.0);
 
 /// Returns the foliage of a tree at a level of detail. The crown has the same extent at every level:
 /// the leaves that reach farthest are always there, and no group reaches beyond them. Levels with

@@ -14,6 +14,7 @@
 #include "core/math/random.h"
 #include "core/mesh/tangents.h"
 #include "core/plant/lamina.h"
+#include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
 
@@ -50,36 +51,7 @@ Level level_of(const Venation& venation, int lod) {
     return {1, {0.0, 1.0}, 0, 3, 2};
 }
 
-// The middle surface: folded about the middle vein, with waves, bent along it. Unit: length of the
-// lamina.
-class Bending {
-  public:
-    explicit Bending(const LeafShape& shape)
-        : shape_(shape),
-          fold_(sine_cosine(shape.fold_deg * (pi / 180.0))),
-          curl_(shape.curl_deg * (pi / 180.0)) {}
-
-    [[nodiscard]] glm::dvec3 at(const glm::dvec2& place, double lift) const {
-        constexpr double soft = 0.04;
-        const double x = place.x, y = place.y;
-        const double across = std::sqrt(x * x + soft * soft) - soft;
-        double up = lift + across * fold_.sine;
-        const SineCosine phase = sine_cosine(2.0 * pi * shape_.waves * y);
-        up += shape_.wave * 0.6 * (x * x * phase.sine + x * std::abs(x) * phase.cosine);
-        const double side = x * fold_.cosine;
-        if (std::abs(curl_) < 1e-9) return {-side, up, y};
-        // Relief on the inner side of the bend must not reach the centre of curvature.
-        up /= 1.0 + std::max(0.0, -curl_ * up);
-        const SineCosine turn = sine_cosine(curl_ * y);
-        return {-side, (turn.cosine - 1.0) / curl_ + up * turn.cosine,
-                turn.sine / curl_ + up * turn.sine};
-    }
-
-  private:
-    const LeafShape& shape_;
-    SineCosine fold_;
-    double curl_;
-};
+}  // namespace
 
 void throw_if_invalid(const LeafShape& shape) {
     std::vector<Problem> problems;
@@ -87,42 +59,30 @@ void throw_if_invalid(const LeafShape& shape) {
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
-// A mesh under construction. Positions are in lengths of the lamina until the end, so that normals
-// are equally exact for small and large leaves.
-struct Shell {
-    std::vector<glm::dvec3> places;
-    std::vector<glm::vec2> texture;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-
-    std::uint32_t add(const glm::dvec3& place, const glm::dvec2& texture_point) {
-        places.push_back(place);
-        texture.emplace_back(glm::clamp(texture_point, 0.0, 1.0));
-        return static_cast<std::uint32_t>(places.size() - 1);
-    }
-
-    [[nodiscard]] Mesh mesh(double scale) const {
-        std::vector<glm::dvec3> normals(places.size(), glm::dvec3(0.0));
-        Mesh mesh;
-        mesh.indices.reserve(3 * triangles.size());
-        for (const auto& t : triangles) {
-            const glm::dvec3 across =
-                glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
-            for (const std::uint32_t corner : t) {
-                normals[corner] += across;
-                mesh.indices.push_back(corner);
-            }
+Mesh Shell::mesh(double scale) const {
+    std::vector<glm::dvec3> normals(places.size(), glm::dvec3(0.0));
+    Mesh mesh;
+    mesh.indices.reserve(3 * triangles.size());
+    for (const auto& t : triangles) {
+        const glm::dvec3 across =
+            glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
+        for (const std::uint32_t corner : t) {
+            normals[corner] += across;
+            mesh.indices.push_back(corner);
         }
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const double size = glm::length(normals[i]);
-            if (!(size > 0.0)) throw GenerationError("a vertex of a leaf has no normal");
-            mesh.positions.emplace_back(scale * places[i]);
-            mesh.normals.emplace_back(normals[i] / size);
-        }
-        mesh.texture_coordinates = texture;
-        add_tangents(mesh);
-        return mesh;
     }
-};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const double size = glm::length(normals[i]);
+        if (!(size > 0.0)) throw GenerationError("a vertex of a leaf has no normal");
+        mesh.positions.emplace_back(scale * places[i]);
+        mesh.normals.emplace_back(normals[i] / size);
+    }
+    mesh.texture_coordinates = texture;
+    add_tangents(mesh);
+    return mesh;
+}
+
+namespace {
 
 // Adds a tube that starts at a point under the middle vein and ends, slightly thicker, in a disc at
 // the pivot.
@@ -192,174 +152,6 @@ LeafChart chart_of(const Lamina& lamina) {
 }
 
 int leaf_steps(const Venation& venation, int lod) { return level_of(venation, lod).steps; }
-
-namespace {
-
-double area_of(const std::vector<glm::dvec2>& border) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i < border.size(); ++i) {
-        const glm::dvec2 a = border[i], b = border[(i + 1) % border.size()];
-        twice += a.x * b.y - a.y * b.x;
-    }
-    return 0.5 * twice;
-}
-
-double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// Returns the right half of a border, from the root to the tip, reduced to `count` corners: the
-// corner whose removal changes the area least is removed first. All remain visible from the centre.
-std::vector<glm::dvec2> simplified(std::vector<glm::dvec2> half, const glm::dvec2& centre,
-                                   std::size_t count) {
-    const auto ahead = [&](std::size_t a, std::size_t b) {
-        return twice_area(centre, half[a], half[b]) > 1e-6;
-    };
-    // Of two corners in the same direction from the centre the nearer one is removed.
-    for (std::size_t i = 0; i + 1 < half.size();) {
-        if (ahead(i, i + 1) || half.size() == 2) {
-            ++i;
-            continue;
-        }
-        const bool first_goes =
-            i > 0 && (i + 2 == half.size() ||
-                      glm::distance(half[i], centre) < glm::distance(half[i + 1], centre));
-        half.erase(half.begin() + static_cast<long>(first_goes ? i : i + 1));
-        i -= i > 0 ? 1 : 0;
-    }
-    while (half.size() > count) {
-        std::size_t least = 0;
-        double smallest = 1e300;
-        for (std::size_t i = 1; i + 1 < half.size(); ++i) {
-            if (!ahead(i - 1, i + 1)) continue;
-            const double loss = std::abs(twice_area(half[i - 1], half[i], half[i + 1]));
-            if (loss >= smallest) continue;
-            smallest = loss;
-            least = i;
-        }
-        if (least == 0) break;
-        half.erase(half.begin() + static_cast<long>(least));
-    }
-    return half;
-}
-
-}  // namespace
-
-double lamina_area(const LeafShape& shape) {
-    return area_of(border_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)))) *
-           shape.length * shape.length;
-}
-
-namespace {
-
-/// The property of the lamina that a polygon of few corners preserves.
-enum class Preserved {
-    area,   ///< seen from above; bays of the border make it shorter
-    extent  ///< length and width; the area as far as moving other corners allows
-};
-
-/// Scales the right half of a border, from the root to the tip, to the length and width of the
-/// whole border, and moves the corners that are neither widest nor tip inwards until the areas are
-/// equal.
-void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
-             const std::vector<glm::dvec2>& whole) {
-    glm::dvec2 low(0.0), high(0.0);
-    for (const glm::dvec2& place : whole) {
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-    }
-    const auto widest = static_cast<std::size_t>(
-        std::max_element(half.begin(), half.end(),
-                         [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; }) -
-        half.begin());
-    double lowest = 0.0, highest = 0.0;
-    for (const glm::dvec2& place : half) {
-        lowest = std::min(lowest, place.y);
-        highest = std::max(highest, place.y);
-    }
-    if (half[widest].x < 1e-9 || highest < 1e-9) return;
-    const double wider = high.x / half[widest].x, longer = high.y / highest,
-                 deeper = lowest < -1e-9 ? std::clamp(low.y / lowest, 0.5, 2.0) : 1.0;
-    for (glm::dvec2& place : half) {
-        place.x *= wider;
-        place.y *= place.y < 0.0 ? deeper : longer;
-    }
-    centre.y *= longer;
-    // Twice the area of the half is the sum over its corners of x times the difference in y of the
-    // two neighbours.
-    double fixed = 0.0, drawn = 0.0;
-    for (std::size_t i = 1; i + 1 < half.size(); ++i)
-        (i == widest ? fixed : drawn) += half[i].x * (half[i + 1].y - half[i - 1].y);
-    if (drawn <= 0.0) return;
-    double share = std::clamp((area_of(whole) - fixed) / drawn, 0.2, 1.0);
-    const std::vector<glm::dvec2> before = half;
-    for (int tries = 0; tries < 8; ++tries, share += 0.3 * (1.0 - share)) {
-        bool seen = true;
-        for (std::size_t i = 1; i + 1 < half.size(); ++i)
-            half[i].x = (i == widest ? 1.0 : share) * before[i].x;
-        for (std::size_t i = 0; i + 1 < half.size(); ++i)
-            seen = seen && twice_area(centre, half[i], half[i + 1]) > 1e-6;
-        if (seen) return;
-    }
-    half = before;
-}
-
-// Returns the lamina alone, root at the origin.
-Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
-                    Preserved preserved) {
-    const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
-    // The border is straight between the ends of veins; otherwise all corners would be spent on the
-    // bays of a frond.
-    Venation plain = shape.venation;
-    plain.sinus = plain.teeth = 0.0;
-    const Lamina outline = lamina_of(plain, plain.lobes.value == 1 ? 2 : 1);
-    const Lobe& middle = outline.lobes[outline.lobes.size() / 2];
-    glm::dvec2 centre(0.0, outline.lobes.size() > 1 ? 0.3 : 0.5);
-    const glm::dvec2 tip = middle.place(0, middle.reach, 0.0);
-    std::vector<glm::dvec2> half;
-    for (const glm::dvec2& place : border_of(outline)) {
-        half.push_back(place);
-        if (place == tip) break;
-    }
-    // Four triangles are a kite on either face, more are fans about a centre.
-    const bool kite = triangles == 4;
-    std::vector<glm::dvec2> border = simplified(half, centre, kite ? 3 : triangles / 4 + 1);
-    const std::vector<glm::dvec2> whole = border_of(lamina);
-    if (preserved == Preserved::extent) stretch(border, centre, whole);
-    for (std::size_t i = border.size() - 2; i > 0; --i)
-        border.emplace_back(-border[i].x, border[i].y);
-    const double grown =
-        preserved == Preserved::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
-    const LeafChart chart = chart_of(lamina);
-    Shell shell;
-    const auto count = static_cast<std::uint32_t>(border.size());
-    for (const bool upper : {true, false}) {
-        for (const glm::dvec2& place : border)
-            shell.add(bent.at(grown * place, 0.0), chart.texture_point(place, upper));
-        if (kite) continue;
-        const double lift = upper ? 0.5 * shape.thickness : -0.5 * shape.thickness;
-        shell.add(bent.at(grown * centre, lift), chart.texture_point(centre, upper));
-    }
-    if (kite) {
-        shell.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
-        return shell;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t next = (i + 1) % count, below = count + 1;
-        shell.triangles.push_back({i, next, count});
-        shell.triangles.push_back({below + next, below + i, below + count});
-    }
-    return shell;
-}
-
-}  // namespace
-
-Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
-    throw_if_invalid(shape);
-    if (triangles < 4 || triangles > most_foliage_triangles || triangles % 4 != 0)
-        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 4, 8, 12 or 16");
-    return foliage_shell(shape, Bending(shape), triangles, Preserved::area).mesh(shape.length);
-}
 
 namespace {
 

@@ -150,13 +150,16 @@ struct LeafCount {
 inline constexpr std::size_t most_foliage_triangles = 16;
 
 /// Returns the leaf of a tree: one closed piece of a few triangles with the area of the lamina seen
-/// from above, without a petiole (root of the lamina at the origin). Of four triangles it is a kite,
-/// its root and its tip at the ends of the axis.
+/// from above, without a petiole (root of the lamina at the origin). Of four triangles it is flat, a
+/// kite on either face, of two one triangle: they have the area and the middle of the leaf of most
+/// triangles and lie in its plane, as slender as it is by the variances of its points, since seen
+/// from far away a leaf is a spot. They need not reach from its root to its tip.
 ///
-/// triangles  4, 8, 12 or 16
+/// triangles  2, 4, 8, 12 or 16
+/// share      area of a leaf of two or four triangles by that of the lamina, greater than 0
 /// throws     InvalidInput with all that check() reports, or for another number of triangles
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
-                                std::size_t triangles = most_foliage_triangles);
+                                std::size_t triangles = most_foliage_triangles, double share = 1.0);
 
 /// Returns the area of the lamina in its plane, square metres.
 [[nodiscard]] double lamina_area(const LeafShape& shape);

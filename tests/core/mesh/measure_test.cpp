@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <limits>
 #include <string>
 
@@ -33,6 +35,18 @@ Mesh cube(float side, const glm::vec3& at = glm::vec3(0.0f)) {
                 mesh.indices.push_back(first + i);
         }
     return mesh;
+}
+
+TEST(Measure, MomentsOfACubeAndOfNothing) {
+    const SurfaceMoments of = surface_moments(cube(2.0f, {5.0f, -3.0f, 1.0f}));
+    EXPECT_NEAR(of.area, 24.0, 1e-6);
+    EXPECT_NEAR(glm::distance(of.middle, glm::dvec3(5.0, -3.0, 1.0)), 0.0, 1e-6);
+    // Two faces at a distance of 1, four over which coordinates are uniform in -1..1.
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(of.covariance[i][k], i == k ? (2.0 * 1.0 + 4.0 / 3.0) / 6.0 : 0.0, 1e-6);
+    EXPECT_EQ(surface_moments({}).area, 0.0);
+    EXPECT_EQ(surface_moments({}).covariance, glm::dmat3(0.0));
 }
 
 TEST(Measure, ACubeHasTheVolumeAndAreaOfACube) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
 #include "tests/support/atlas.h"
 
@@ -32,13 +33,10 @@ LeafShape flat(LeafShape shape) {
     return shape;
 }
 
-struct Dimensions {
-    double length, breadth;
-};
-
-Dimensions dimensions_of(const Mesh& leaf) {
-    const Bounds box = bounds(leaf);
-    return {box.max.z - box.min.z, box.max.x - box.min.x};
+/// Returns how many times as long as broad a surface is, by the variances of its points.
+double slenderness_of(const Mesh& mesh) {
+    const PrincipalAxes axes = principal_axes(surface_moments(mesh).covariance);
+    return std::sqrt(axes.variances[0] / axes.variances[1]);
 }
 
 TEST(FoliageLevels, EachHasAtMostTheLeavesAndTrianglesOfTheOneBefore) {
@@ -49,7 +47,7 @@ TEST(FoliageLevels, EachHasAtMostTheLeavesAndTrianglesOfTheOneBefore) {
                               triangles = leaf_triangles(lod, leaves);
             EXPECT_LE(count, leaves);
             EXPECT_EQ(count == 0, leaves == 0);
-            EXPECT_TRUE(std::set<std::size_t>({4, 8, 12, 16}).contains(triangles)) << triangles;
+            EXPECT_TRUE(std::set<std::size_t>({2, 4, 8, 12, 16}).contains(triangles)) << triangles;
             if (lod == 0) continue;
             EXPECT_LE(count, foliage_count(lod - 1, leaves)) << leaves;
             EXPECT_LE(count * triangles,
@@ -61,7 +59,7 @@ TEST(FoliageLevels, EachHasAtMostTheLeavesAndTrianglesOfTheOneBefore) {
 
 TEST(FoliageLevels, VerticesOfALeafAreCountedWithoutIt) {
     for (const LeafPreset& preset : atlas().leaves())
-        for (const std::size_t triangles : {4u, 8u, 12u, 16u}) {
+        for (const std::size_t triangles : {2u, 4u, 8u, 12u, 16u}) {
             const Mesh leaf = foliage_leaf(preset.shape, triangles);
             EXPECT_EQ(leaf.positions.size(), leaf_vertices(triangles));
             EXPECT_EQ(leaf.triangles(), triangles);
@@ -72,7 +70,7 @@ TEST(GroupedLeaves, AsManyAsThereAreStayAsTheyAre) {
     const Preset shrub = preset_of("shrub");
     const Mesh leaf = foliage_leaf(flat(shrub.leaf), 4);
     const std::vector<PlacedLeaf> leaves = placed_leaves(shrub.tree, shrub.style, 1);
-    const std::vector<PlacedLeaf> all = grouped(shrub.tree, leaves, leaf, leaves.size());
+    const std::vector<PlacedLeaf> all = grouped(shrub.tree, leaves, leaf, leaf, leaves.size());
     ASSERT_EQ(all.size(), leaves.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(all[i].id, leaves[i].id);
@@ -88,7 +86,7 @@ TEST(GroupedLeaves, CoverLessThanTheyHaveTogether) {
     const double whole = area(merged_leaves(leaves, leaf));
     for (const std::size_t share : {2u, 4u, 16u, 64u}) {
         const std::size_t count = leaves.size() / share;
-        const std::vector<PlacedLeaf> fewer = grouped(broadleaf.tree, leaves, leaf, count);
+        const std::vector<PlacedLeaf> fewer = grouped(broadleaf.tree, leaves, leaf, leaf, count);
         ASSERT_EQ(fewer.size(), count);
         std::set<std::uint32_t> ids;
         for (const PlacedLeaf& one : fewer) {
@@ -121,16 +119,14 @@ TEST(GroupedLeaves, LieInThePlaneOfTheirLeavesAlongTheirLongestAxis) {
         one.id = i;
         leaves.push_back(one);
     }
-    const std::vector<PlacedLeaf> cover = grouped(shrub.tree, leaves, leaf, 1);
+    const std::vector<PlacedLeaf> cover = grouped(shrub.tree, leaves, leaf, leaf, 1);
     ASSERT_EQ(cover.size(), 1u);
     EXPECT_NEAR(glm::dot(cover[0].up, up), 1.0, 1e-9);
     EXPECT_NEAR(std::abs(glm::dot(cover[0].along, along)), 1.0, 1e-2);
     const Mesh mesh = merged_leaves(cover, leaf);
     const Bounds box = bounds(mesh);
     EXPECT_LT(glm::length(glm::dvec3(0.5F * (box.min + box.max)) - middle), 0.5);
-    // The breadth is half of the length, and the area at most twice the ellipse's mean section.
-    const Dimensions own = dimensions_of(leaf);
-    EXPECT_NEAR(own.breadth * cover[0].breadth / own.length, 0.5, 0.1);
+    EXPECT_NEAR(slenderness_of(mesh), 2.0, 0.2);
     EXPECT_LT(area(mesh), 2.0 * area(merged_leaves(leaves, leaf)));
 }
 
@@ -142,12 +138,34 @@ TEST(GroupedLeaves, InARowBecomeOneThatIsNoStripe) {
         leaves[i].id = i;
         leaves[i].place = {100.0 * i, 0.0, 0.0};
     }
-    const std::vector<PlacedLeaf> cover = grouped(shrub.tree, leaves, leaf, 1);
+    const std::vector<PlacedLeaf> cover = grouped(shrub.tree, leaves, leaf, leaf, 1);
     ASSERT_EQ(cover.size(), 1u);
     EXPECT_NEAR(std::abs(cover[0].along.x), 1.0, 1e-3);
-    const Dimensions own = dimensions_of(leaf);
-    EXPECT_NEAR(own.length / (own.breadth * cover[0].breadth), 6.0, 1e-3);
+    EXPECT_NEAR(slenderness_of(merged_leaves(cover, leaf)), 6.0, 1e-2);
     EXPECT_LE(area(merged_leaves(cover, leaf)), 1.001 * area(merged_leaves(leaves, leaf)));
+}
+
+// Pairs of leaves, far from each other: each pair becomes one leaf, in whatever order they stand.
+TEST(GroupedLeaves, AreClosestNeighbours) {
+    const Preset shrub = preset_of("shrub");
+    const Mesh leaf = foliage_leaf(flat(shrub.leaf), 4), cover = foliage_leaf(flat(shrub.leaf), 2);
+    std::vector<PlacedLeaf> leaves(40);
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        leaves[i].id = i;
+        leaves[i].place = {3.0 * (i % 20), 0.0, i < 20 ? 0.0 : 0.3};
+    }
+    for (const double share : {1.0, 1.5}) {
+        const std::vector<PlacedLeaf> pairs = grouped(shrub.tree, leaves, leaf, cover, 20, share);
+        ASSERT_EQ(pairs.size(), 20u);
+        for (std::uint32_t i = 0; i < 20; ++i) {
+            const SurfaceMoments pair = surface_moments(merged_leaves({&pairs[i], 1}, cover)),
+                                 one = surface_moments(merged_leaves({&leaves[i], 1}, leaf));
+            EXPECT_NEAR(pair.middle.x, one.middle.x, 1e-4);
+            EXPECT_NEAR(pair.middle.z, one.middle.z + 0.15, 1e-4);
+            EXPECT_GT(pair.area, share * one.area);
+            EXPECT_LT(pair.area, 2.001 * share * one.area);
+        }
+    }
 }
 
 TEST(FoliageOfATree, HasTheCountAndTheLeafOfItsLevel) {

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "core/math/elementary.h"
+#include "core/math/principal_axes.h"
+#include "core/mesh/measure.h"
 #include "core/params/corners.h"
 #include "tests/support/atlas.h"
 #include "tests/support/draws.h"
@@ -86,11 +88,38 @@ TEST(Leaf, LeavesAtTheEndsOfTheirRangesAreClosed) {
 TEST(Leaf, FoliageKeepsTheAreaOfTheLamina) {
     for (const LeafPreset& preset : leaf_presets()) {
         const LeafShape flat = pressed(preset.shape);
-        for (const std::size_t triangles : {8U, 12U, 16U}) {
+        for (const std::size_t triangles : {2U, 4U, 8U, 12U, 16U}) {
             const Mesh mesh = foliage_leaf(flat, triangles);
             EXPECT_LE(mesh.triangles(), triangles) << preset.id.string();
             EXPECT_NEAR(seen_area(mesh) / lamina_area(flat), 1.0, 1e-4) << preset.id.string();
         }
+    }
+}
+
+// From far away a leaf is a spot: the flat ones are as large, at the same place and as slender.
+TEST(Leaf, FlatFoliageHasTheMomentsOfTheFinest) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        LeafShape shape = preset.shape;
+        shape.thickness = 0.002;  // needles are as thick as broad
+        const SurfaceMoments finest = surface_moments(foliage_leaf(shape));
+        const PrincipalAxes axes = principal_axes(finest.covariance);
+        for (const std::size_t triangles : {2U, 4U})
+            for (const double share : {1.0, 1.2}) {
+                SCOPED_TRACE(preset.id.string() + std::to_string(triangles));
+                const Mesh mesh = foliage_leaf(shape, triangles, share);
+                EXPECT_TRUE(defects(mesh).empty());
+                const SurfaceMoments flat = surface_moments(mesh);
+                const PrincipalAxes own = principal_axes(flat.covariance);
+                EXPECT_NEAR(flat.area / finest.area, share, 0.01);
+                EXPECT_LT(glm::distance(flat.middle, finest.middle), 1e-3 * shape.length);
+                EXPECT_GT(std::abs(glm::dot(own.directions[0], axes.directions[0])), 0.999);
+                EXPECT_LT(own.variances[2], 1e-6 * own.variances[0]);
+                EXPECT_NEAR(std::sqrt(own.variances[0] / own.variances[1]),
+                            std::sqrt(axes.variances[0] / axes.variances[1]),
+                            2e-2 * std::sqrt(axes.variances[0] / axes.variances[1]));
+                // The front is the upper face.
+                EXPECT_GT(mesh.normals.front().y, 0.5F);
+            }
     }
 }
 

@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "core/math/principal_axes.h"
+#include "core/mesh/measure.h"
+#include "core/plant/lamina.h"
+#include "core/plant/leaf_shell.h"
+
+namespace sporeprint {
+
+namespace {
+
+double area_of(const std::vector<glm::dvec2>& border) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < border.size(); ++i) {
+        const glm::dvec2 a = border[i], b = border[(i + 1) % border.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * twice;
+}
+
+double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Returns the right half of a border, from the root to the tip, reduced to `count` corners: the
+// corner whose removal changes the area least is removed first. All remain visible from the centre.
+std::vector<glm::dvec2> simplified(std::vector<glm::dvec2> half, const glm::dvec2& centre,
+                                   std::size_t count) {
+    const auto ahead = [&](std::size_t a, std::size_t b) {
+        return twice_area(centre, half[a], half[b]) > 1e-6;
+    };
+    // Of two corners in the same direction from the centre the nearer one is removed.
+    for (std::size_t i = 0; i + 1 < half.size();) {
+        if (ahead(i, i + 1) || half.size() == 2) {
+            ++i;
+            continue;
+        }
+        const bool first_goes =
+            i > 0 && (i + 2 == half.size() ||
+                      glm::distance(half[i], centre) < glm::distance(half[i + 1], centre));
+        half.erase(half.begin() + static_cast<long>(first_goes ? i : i + 1));
+        i -= i > 0 ? 1 : 0;
+    }
+    while (half.size() > count) {
+        std::size_t least = 0;
+        double smallest = 1e300;
+        for (std::size_t i = 1; i + 1 < half.size(); ++i) {
+            if (!ahead(i - 1, i + 1)) continue;
+            const double loss = std::abs(twice_area(half[i - 1], half[i], half[i + 1]));
+            if (loss >= smallest) continue;
+            smallest = loss;
+            least = i;
+        }
+        if (least == 0) break;
+        half.erase(half.begin() + static_cast<long>(least));
+    }
+    return half;
+}
+
+}  // namespace
+
+double lamina_area(const LeafShape& shape) {
+    return area_of(border_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)))) *
+           shape.length * shape.length;
+}
+
+namespace {
+
+/// Scales the right half of a border, from the root to the tip, to the length and width of the
+/// whole border, and moves the corners that are neither widest nor tip inwards until the areas are
+/// equal.
+void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
+             const std::vector<glm::dvec2>& whole) {
+    glm::dvec2 low(0.0), high(0.0);
+    for (const glm::dvec2& place : whole) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    const auto widest = static_cast<std::size_t>(
+        std::max_element(half.begin(), half.end(),
+                         [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; }) -
+        half.begin());
+    double lowest = 0.0, highest = 0.0;
+    for (const glm::dvec2& place : half) {
+        lowest = std::min(lowest, place.y);
+        highest = std::max(highest, place.y);
+    }
+    if (half[widest].x < 1e-9 || highest < 1e-9) return;
+    const double wider = high.x / half[widest].x, longer = high.y / highest,
+                 deeper = lowest < -1e-9 ? std::clamp(low.y / lowest, 0.5, 2.0) : 1.0;
+    for (glm::dvec2& place : half) {
+        place.x *= wider;
+        place.y *= place.y < 0.0 ? deeper : longer;
+    }
+    centre.y *= longer;
+    // Twice the area of the half is the sum over its corners of x times the difference in y of the
+    // two neighbours.
+    double fixed = 0.0, drawn = 0.0;
+    for (std::size_t i = 1; i + 1 < half.size(); ++i)
+        (i == widest ? fixed : drawn) += half[i].x * (half[i + 1].y - half[i - 1].y);
+    if (drawn <= 0.0) return;
+    double share = std::clamp((area_of(whole) - fixed) / drawn, 0.2, 1.0);
+    const std::vector<glm::dvec2> before = half;
+    for (int tries = 0; tries < 8; ++tries, share += 0.3 * (1.0 - share)) {
+        bool seen = true;
+        for (std::size_t i = 1; i + 1 < half.size(); ++i)
+            half[i].x = (i == widest ? 1.0 : share) * before[i].x;
+        for (std::size_t i = 0; i + 1 < half.size(); ++i)
+            seen = seen && twice_area(centre, half[i], half[i + 1]) > 1e-6;
+        if (seen) return;
+    }
+    half = before;
+}
+
+}  // namespace
+
+Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
+                    Preserved preserved) {
+    const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
+    // The border is straight between the ends of veins; otherwise all corners would be spent on the
+    // bays of a frond.
+    Venation plain = shape.venation;
+    plain.sinus = plain.teeth = 0.0;
+    const Lamina outline = lamina_of(plain, plain.lobes.value == 1 ? 2 : 1);
+    const Lobe& middle = outline.lobes[outline.lobes.size() / 2];
+    glm::dvec2 centre(0.0, outline.lobes.size() > 1 ? 0.3 : 0.5);
+    const glm::dvec2 tip = middle.place(0, middle.reach, 0.0);
+    std::vector<glm::dvec2> half;
+    for (const glm::dvec2& place : border_of(outline)) {
+        half.push_back(place);
+        if (place == tip) break;
+    }
+    std::vector<glm::dvec2> border = simplified(half, centre, triangles / 4 + 1);
+    const std::vector<glm::dvec2> whole = border_of(lamina);
+    if (preserved == Preserved::extent) stretch(border, centre, whole);
+    for (std::size_t i = border.size() - 2; i > 0; --i)
+        border.emplace_back(-border[i].x, border[i].y);
+    const double grown =
+        preserved == Preserved::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
+    const LeafChart chart = chart_of(lamina);
+    Shell shell;
+    const auto count = static_cast<std::uint32_t>(border.size());
+    for (const bool upper : {true, false}) {
+        for (const glm::dvec2& place : border)
+            shell.add(bent.at(grown * place, 0.0), chart.texture_point(place, upper));
+        const double lift = upper ? 0.5 * shape.thickness : -0.5 * shape.thickness;
+        shell.add(bent.at(grown * centre, lift), chart.texture_point(centre, upper));
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t next = (i + 1) % count, below = count + 1;
+        shell.triangles.push_back({i, next, count});
+        shell.triangles.push_back({below + next, below + i, below + count});
+    }
+    return shell;
+}
+
+namespace {
+
+/// Returns the flat leaf of two or four triangles.
+///
+/// share  its area by that of the lamina
+Shell flat_shell(const LeafShape& shape, std::size_t triangles, double share) {
+    // A needle is as thick as broad: its plane is that of its middle surface.
+    LeafShape thin = shape;
+    thin.thickness = 0.0;
+    const Mesh fine =
+        foliage_shell(thin, Bending(thin), most_foliage_triangles, Preserved::area).mesh(1.0);
+    const SurfaceMoments of = surface_moments(fine);
+    const PrincipalAxes axes = principal_axes(of.covariance);
+    // A leaf may be broader than long.
+    const std::size_t first =
+        std::abs(axes.directions[0].z) >= std::abs(axes.directions[1].z) ? 0 : 1;
+    glm::dvec3 along = axes.directions[first], across = axes.directions[1 - first];
+    if (along.z < 0.0) along = -along;
+    if (glm::cross(along, across).y < 0.0) across = -across;
+    const double slender = std::sqrt(axes.variances[first] / axes.variances[1 - first]);
+    const double area = 0.5 * share * of.area;  // of one face
+    // Corners of a face, along and across. The variance along a kite is a sixth of the square of
+    // half its length, along a triangle an eighteenth of that of its length; across a triangle it is
+    // a sixth of the square of half its base.
+    std::vector<glm::dvec2> corners;
+    if (triangles == 2) {
+        const double half_base = std::sqrt(area / (std::sqrt(3.0) * slender)),
+                     length = area / half_base;
+        corners = {
+            {-length / 3.0, half_base}, {-length / 3.0, -half_base}, {2.0 * length / 3.0, 0}};
+    } else {
+        const double half_breadth = std::sqrt(0.5 * area / slender),
+                     half_length = slender * half_breadth;
+        corners = {
+            {-half_length, 0.0}, {0.0, -half_breadth}, {half_length, 0.0}, {0.0, half_breadth}};
+    }
+    // It shows a part of the image that is a little larger than itself: the border of a lamina, with
+    // the pale tips of needles, is a larger part of its area than of a kite's.
+    constexpr double shown = 1.15;
+    const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
+    LeafShape pressed = thin;
+    pressed.curl_deg = pressed.fold_deg = pressed.wave = 0.0;
+    const double middle = surface_moments(foliage_shell(pressed, Bending(pressed),
+                                                        most_foliage_triangles, Preserved::area)
+                                              .mesh(1.0))
+                              .middle.z;
+    const LeafChart chart = chart_of(lamina);
+    const double side = across.x < 0.0 ? 1.0 : -1.0;
+    Shell shell;
+    for (const bool upper : {true, false})
+        for (const glm::dvec2& corner : corners)
+            shell.add(
+                of.middle + corner.x * along + corner.y * across,
+                chart.texture_point({shown * side * corner.y, middle + shown * corner.x}, upper));
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    for (std::uint32_t i = 2; i < count; ++i) {
+        shell.triangles.push_back({0, i - 1, i});
+        shell.triangles.push_back({count, count + i, count + i - 1});
+    }
+    return shell;
+}
+
+}  // namespace
+
+Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {
+    throw_if_invalid(shape);
+    if (triangles == 2 || triangles == 4)
+        return flat_shell(shape, triangles, share).mesh(shape.length);
+    if (triangles < 4 || triangles > most_foliage_triangles || triangles % 4 != 0)
+        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 2, 4, 8, 12 or 16");
+    return foliage_shell(shape, Bending(shape), triangles, Preserved::area).mesh(shape.length);
+}
+
+}  // namespace sporeprint

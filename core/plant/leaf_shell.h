@@ -1,0 +1,85 @@
+// Leaves that are being built: their bent middle surface, and the mesh under construction.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/mesh/mesh.h"
+#include "core/plant/leaf.h"
+
+namespace sporeprint {
+
+/// The middle surface: folded about the middle vein, with waves, bent along it. Unit: length of the
+/// lamina.
+class Bending {
+  public:
+    explicit Bending(const LeafShape& shape)
+        : shape_(shape),
+          fold_(sine_cosine(shape.fold_deg * (pi / 180.0))),
+          curl_(shape.curl_deg * (pi / 180.0)) {}
+
+    [[nodiscard]] glm::dvec3 at(const glm::dvec2& place, double lift) const {
+        constexpr double soft = 0.04;
+        const double x = place.x, y = place.y;
+        const double across = std::sqrt(x * x + soft * soft) - soft;
+        double up = lift + across * fold_.sine;
+        const SineCosine phase = sine_cosine(2.0 * pi * shape_.waves * y);
+        up += shape_.wave * 0.6 * (x * x * phase.sine + x * std::abs(x) * phase.cosine);
+        const double side = x * fold_.cosine;
+        if (std::abs(curl_) < 1e-9) return {-side, up, y};
+        // Relief on the inner side of the bend must not reach the centre of curvature.
+        up /= 1.0 + std::max(0.0, -curl_ * up);
+        const SineCosine turn = sine_cosine(curl_ * y);
+        return {-side, (turn.cosine - 1.0) / curl_ + up * turn.cosine,
+                turn.sine / curl_ + up * turn.sine};
+    }
+
+  private:
+    const LeafShape& shape_;
+    SineCosine fold_;
+    double curl_;
+};
+
+/// A mesh under construction. Positions are in lengths of the lamina until the end, so that normals
+/// are equally exact for small and large leaves.
+struct Shell {
+    std::vector<glm::dvec3> places;
+    std::vector<glm::vec2> texture;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    std::uint32_t add(const glm::dvec3& place, const glm::dvec2& texture_point) {
+        places.push_back(place);
+        texture.emplace_back(glm::clamp(texture_point, 0.0, 1.0));
+        return static_cast<std::uint32_t>(places.size() - 1);
+    }
+
+    /// Returns the mesh.
+    ///
+    /// scale   of all positions
+    /// throws  GenerationError if a vertex has no normal
+    [[nodiscard]] Mesh mesh(double scale) const;
+};
+
+/// The property of the lamina that a polygon of few corners preserves.
+enum class Preserved {
+    area,   ///< seen from above; bays of the border make it shorter
+    extent  ///< length and width; the area as far as moving other corners allows
+};
+
+/// Returns the lamina alone, root at the origin, as fans about a centre.
+///
+/// triangles  8, 12 or 16
+[[nodiscard]] Shell foliage_shell(const LeafShape& shape, const Bending& bent,
+                                  std::size_t triangles, Preserved preserved);
+
+/// Throws InvalidInput with all that check() reports of a leaf.
+void throw_if_invalid(const LeafShape& shape);
+
+}  // namespace sporeprint
