@@ -28,6 +28,7 @@ ColonyRequest read_colony(std::string_view mix, Query query, const Atlas& atlas,
     std::vector<Problem> problems;
     apply_profile(requested_profile(rest), request.spec.params);
     read_query(rest, request.spec.params, problems);
+    drop_excluded_defaults(request.spec.params, named_options(rest));
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
     return request;
@@ -47,15 +48,15 @@ ColonyRequest read_colony(std::string_view body, const Atlas& atlas, ValidationE
     json.erase("mix");
     apply_profile(requested_profile(json), request.spec.params);
     read(json, request.spec.params, Info{.name = ""}, "", problems);
+    drop_excluded_defaults(request.spec.params, named_options(json));
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
     return request;
 }
 
 std::string canonical_address(const ColonySpec& spec, Product product) {
-    return with_query(
-        "/v1/colonies/" + mix_text(spec.mix) + ending_of(product),
-        query_text(spec.params, with_profile(ColonyParams{}, spec.params.file.profile)));
+    return with_query("/v1/colonies/" + mix_text(spec.mix) + ending_of(product),
+                      query_text(spec.params, with_profile(ColonyParams{}, spec.params)));
 }
 
 std::string key_of(const ColonySpec& spec, Product product, std::string_view version) {

@@ -102,6 +102,7 @@ MushroomRequest read_morph(const SpeciesPair& species, std::string_view body,
     MorphSpec spec;
     apply_profile(requested_profile(*json), spec.params);
     read(*json, spec, Info{.name = ""}, "", problems);
+    drop_excluded_defaults(spec.params, named_options(*json));
     add_problems(problems, spec, "", true, errors);
     refuse_crossings(spec.arcs, errors);
     without_negative_zero(spec);

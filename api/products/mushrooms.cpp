@@ -33,6 +33,7 @@ MushroomRequest read_mushroom(std::string_view mix, Query query, const Atlas& at
     std::vector<Problem> problems;
     apply_profile(requested_profile(rest), request.spec.params);
     read_query(rest, request.spec.params, problems);
+    drop_excluded_defaults(request.spec.params, named_options(rest));
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
     return request;
@@ -64,6 +65,7 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Validat
     for (const char* taken : {"mix", "model"}) json.erase(taken);
     apply_profile(requested_profile(json), request.spec.params);
     read(json, request.spec.params, Info{.name = ""}, "", problems);
+    drop_excluded_defaults(request.spec.params, named_options(json));
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
     if (request.spec.model) without_negative_zero(*request.spec.model);
@@ -79,9 +81,8 @@ std::string version_token(const Mix& mix, const Atlas& atlas) {
 }
 
 std::string canonical_address(const MushroomSpec& spec, Product product) {
-    return with_query(
-        "/v1/mushrooms/" + mix_text(spec.mix) + ending_of(product),
-        query_text(spec.params, with_profile(MushroomParams{}, spec.params.file.profile)));
+    return with_query("/v1/mushrooms/" + mix_text(spec.mix) + ending_of(product),
+                      query_text(spec.params, with_profile(MushroomParams{}, spec.params)));
 }
 
 std::string key_of(const MushroomSpec& spec, Product product, std::string_view version) {

@@ -75,6 +75,7 @@ PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view id, Query q
     std::vector<Problem> problems;
     apply_profile(requested_profile(rest), request.spec.params);
     read_query(rest, request.spec.params, problems);
+    drop_excluded_defaults(request.spec.params, named_options(rest));
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
     if constexpr (requires { Kind::settle(request.spec.params); })
@@ -107,6 +108,7 @@ PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view body,
     request.spec = {preset.id.string(), params_of(preset)};
     apply_profile(requested_profile(*json), request.spec.params);
     read(*json, request.spec.params, Info{.name = ""}, "", problems);
+    drop_excluded_defaults(request.spec.params, named_options(*json));
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
     if constexpr (requires { Kind::settle(request.spec.params); })
@@ -129,9 +131,9 @@ template <class Kind, class Spec>
 std::string canonical_address(const Atlas& atlas, const Spec& spec, Product product) {
     if constexpr (requires { Kind::has_address(spec, atlas); })
         if (!Kind::has_address(spec, atlas)) return {};
-    return with_query(folder_of(Kind::all) + spec.preset + ending_of(product),
-                      query_text(spec.params, with_profile(own_params<Kind>(atlas, spec.preset),
-                                                           spec.params.file.profile)));
+    return with_query(
+        folder_of(Kind::all) + spec.preset + ending_of(product),
+        query_text(spec.params, with_profile(own_params<Kind>(atlas, spec.preset), spec.params)));
 }
 
 /// Returns the canonical text of all values: equal keys mean equal bytes.

@@ -79,6 +79,18 @@ Profile requested_profile(const Value& body) {
     return given && given->is_string() ? profile_named(given->as_string()) : Profile::core;
 }
 
+NamedOptions named_options(Query query) {
+    const auto names = [&](std::string_view option) {
+        return std::any_of(query.begin(), query.end(),
+                           [&](const auto& pair) { return pair.first == option; });
+    };
+    return {.collision = names("collision"), .wind = names("wind")};
+}
+
+NamedOptions named_options(const Value& body) {
+    return {.collision = body.find("collision") != nullptr, .wind = body.find("wind") != nullptr};
+}
+
 std::optional<Value> read_body(std::string_view body, ValidationErrors& errors) {
     std::vector<Problem> problems;
     Value json = parse(body, problems);

@@ -45,6 +45,10 @@ enum class Product { glb, json, png };
 [[nodiscard]] Profile requested_profile(Query query);
 [[nodiscard]] Profile requested_profile(const Value& body);
 
+/// Returns which of the options that a profile sets a query or body names itself.
+[[nodiscard]] NamedOptions named_options(Query query);
+[[nodiscard]] NamedOptions named_options(const Value& body);
+
 /// Returns the JSON object of a body; nothing, with the reason in `errors`, if it is none.
 [[nodiscard]] std::optional<Value> read_body(std::string_view body, ValidationErrors& errors);
 

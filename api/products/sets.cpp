@@ -443,6 +443,7 @@ SetRequest read_set(std::string_view body, const Atlas& atlas, ValidationErrors&
     std::sort(request.spec.params.levels.begin(), request.spec.params.levels.end());
     apply_profile(requested_profile(order), request.spec.mushroom);
     read(order, request.spec.mushroom, Info{.name = ""}, "", problems);
+    drop_excluded_defaults(request.spec.mushroom, named_options(order));
     add_problems(problems, request.spec.mushroom, "", true, errors);
     without_negative_zero(request.spec.params);
     without_negative_zero(request.spec.mushroom);

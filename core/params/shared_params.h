@@ -229,8 +229,9 @@ struct FileOptions {
         visit(&O::profile,
               Info{.name = "profile",
                    .doc = "The engine that reads the file: sets the defaults of lod and of the "
-                          "options below, each of which may still be given. core is plain glTF, "
-                          "which every loader reads.",
+                          "options below, each of which may still be given; collision and wind "
+                          "only where other options allow them. core is plain glTF, which every "
+                          "loader reads.",
                    .group = "file"});
         visit(&O::compress,
               Info{.name = "compress",
@@ -268,7 +269,8 @@ struct FileOptions {
                           "Unreal Engine expects, which viewers show. omi: a static body by "
                           "OMI_physics_body and OMI_physics_shape, which Godot reads, with "
                           "geometry as floats only. A leaf has none.",
-                   .group = "file"});
+                   .group = "file",
+                   .default_from = "profile"});
         visit(&O::wind,
               Info{.name = "wind",
                    .doc = "Weights by which a shader moves the vertices in wind: bend (0 at the "
@@ -277,7 +279,8 @@ struct FileOptions {
                           "_WIND, for three.js. color: as COLOR_0, by which viewers "
                           "multiply the colours. extras.wind of the file names the channels and "
                           "states the displacements in metres.",
-                   .group = "file"});
+                   .group = "file",
+                   .default_from = "profile"});
     }
     bool operator==(const FileOptions&) const = default;
 };

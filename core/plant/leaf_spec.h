@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/params/profile.h"
 #include "core/params/shared_params.h"
 #include "core/plant/leaf.h"
 
@@ -22,6 +23,8 @@ struct LeafParams {
     FileOptions file;
     LeafShape shape;
     LeafPalette palette;
+
+    static constexpr ProfileFit profile_fit = {.solids = false, .wind = false};
 
     static constexpr void fields(auto visit) {
         using P = LeafParams;

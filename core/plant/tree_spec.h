@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/params/profile.h"
 #include "core/params/shared_params.h"
 #include "core/plant/leaf_spec.h"
 #include "core/plant/tree.h"
@@ -53,6 +54,13 @@ struct TreeParams {
     FileOptions file;
     LeafInstancing instancing = LeafInstancing::none;
     TreeLook look;
+
+    static constexpr ProfileFit profile_fit = {.solids = true, .wind = true};
+
+    /// Returns whether one leaf is repeated, which excludes weights of wind.
+    [[nodiscard]] constexpr bool has_instanced_leaves() const {
+        return instancing == LeafInstancing::gpu;
+    }
 
     static constexpr void fields(auto visit) {
         using P = TreeParams;

@@ -90,6 +90,7 @@ test("a tree moves in wind", async () => {
         assert.ok(Math.abs(level.sway - json.asset.extras.wind.sway_m) < 1e-6);
     }
     assert.equal(found.tree.levels[0].side, 64);
+    assert.equal(found.tree.bodies, 0, "that of the profile is asked for by `collision` alone");
 });
 
 test("a colony is one draw call for each mesh", async () => {

@@ -88,6 +88,36 @@ TEST(Profiles, OfABodyAreThoseOfAQuery) {
               got("/v1/trees/birch" + query));
 }
 
+TEST(Profiles, RefuseNothingForAnOptionThatIsNotNamed) {
+    Service service(built_in_atlas(), ServiceOptions{});
+    for (const std::string base : small)
+        for (int i = 0; name(static_cast<Profile>(i)); ++i) {
+            const std::string profile = name(static_cast<Profile>(i));
+            for (const std::string rest :
+                 {"", "&compress=quantize", "&compress=meshopt", "&textures=none",
+                  "&compress=meshopt&textures=none", "&lods=nodes", "&collision=none&wind=none"})
+                canonical_of(service, base + ".json?lod=3&profile=" + profile + rest);
+            if (base.find("leaves") == std::string::npos &&
+                base.find("mushrooms") == std::string::npos)
+                canonical_of(service, base + ".json?lod=3&instancing=gpu&profile=" + profile);
+        }
+    EXPECT_EQ(canonical_of(service, "/v1/trees/birch.json?profile=godot&textures=none"),
+              "/v1/trees/birch.glb?textures=none&profile=godot");
+    EXPECT_EQ(canonical_of(service, "/v1/trees/birch.json?profile=godot&compress=quantize"),
+              "/v1/trees/birch.glb?profile=godot&compress=quantize");
+    EXPECT_EQ(canonical_of(service, "/v1/trees/birch.json?profile=godot&wind=uv&collision=omi"),
+              "/v1/trees/birch.glb?profile=godot");
+    const Response named =
+        handle(service, get("/v1/trees/birch.json?profile=godot&textures=none&wind=uv"));
+    EXPECT_EQ(named.status, 422);
+    const std::string posted = R"({"species":["boletus_edulis"],"seeds":2,"levels":[3],)";
+    for (const char* rest :
+         {R"("profile":"godot"})", R"("profile":"godot","compress":"meshopt"})"}) {
+        const Response set = handle(service, test::post(posted + rest, "/v1/sets.json"));
+        EXPECT_EQ(set.status, 200) << test::text_of(set);
+    }
+}
+
 TEST(Profiles, ThatAreUnknownAreRefusedByName) {
     Service service(built_in_atlas(), ServiceOptions{});
     for (const std::string base : small) {

@@ -7,6 +7,8 @@
 
 #include "core/individual/mushroom_spec.h"
 #include "core/params/query.h"
+#include "core/plant/leaf_spec.h"
+#include "core/plant/tree_spec.h"
 
 namespace sporeprint::params_profile_test {
 namespace {
@@ -37,17 +39,69 @@ TEST(Profile, AQueryNamesTheProfileAndWhatDiffersFromIt) {
         MushroomParams params;
         apply_profile(profile, params);
         EXPECT_EQ(params.file.profile, profile);
-        const MushroomParams start = with_profile(MushroomParams{}, profile);
-        EXPECT_EQ(query_text(params, start),
+        EXPECT_EQ(query_text(params, with_profile(MushroomParams{}, params)),
                   profile == Profile::core ? "" : "profile=" + std::string(name(profile)));
         params.lod = 3;
         params.file.compress = params.file.compress == Compression::quantize
                                    ? Compression::none
                                    : Compression::quantize;
+        drop_excluded_defaults(params, {});
         std::string expected = "lod=3";
         if (profile != Profile::core) expected += "&profile=" + std::string(name(profile));
-        EXPECT_EQ(query_text(params, start), expected + "&compress=" + name(params.file.compress));
+        EXPECT_EQ(query_text(params, with_profile(MushroomParams{}, params)),
+                  expected + "&compress=" + name(params.file.compress));
     }
+}
+
+template <class Params>
+FileOptions file_of(Profile profile) {
+    Params params;
+    apply_profile(profile, params);
+    return params.file;
+}
+
+TEST(Profile, OnlyGodotGetsSolidsAndWindWhereTheProductCanUseThem) {
+    for (const Profile profile : all_profiles()) {
+        const bool godot = profile == Profile::godot;
+        const CollisionFormat solids = godot ? CollisionFormat::omi : CollisionFormat::none;
+        EXPECT_EQ(file_of<MushroomParams>(profile).collision, solids) << name(profile);
+        EXPECT_EQ(file_of<TreeParams>(profile).collision, solids) << name(profile);
+        EXPECT_EQ(file_of<LeafParams>(profile).collision, CollisionFormat::none) << name(profile);
+        EXPECT_EQ(file_of<MushroomParams>(profile).wind, WindFormat::none) << name(profile);
+        EXPECT_EQ(file_of<LeafParams>(profile).wind, WindFormat::none) << name(profile);
+        EXPECT_EQ(file_of<TreeParams>(profile).wind, godot ? WindFormat::uv : WindFormat::none)
+            << name(profile);
+    }
+}
+
+TEST(Profile, DefaultsGiveWayToWhatExcludesThemUnlessTheyAreNamed) {
+    for (const bool named : {false, true}) {
+        TreeParams tree;
+        apply_profile(Profile::godot, tree);
+        const FileOptions before = tree.file;
+        drop_excluded_defaults(tree, {});
+        EXPECT_EQ(tree.file, before) << "nothing excludes them";
+        tree.file.compress = Compression::quantize;
+        tree.instancing = LeafInstancing::gpu;
+        drop_excluded_defaults(tree, {.collision = named, .wind = named});
+        EXPECT_EQ(tree.file.collision, named ? CollisionFormat::omi : CollisionFormat::none);
+        EXPECT_EQ(tree.file.wind, named ? WindFormat::uv : WindFormat::none);
+
+        TreeParams plain;
+        apply_profile(Profile::godot, plain);
+        plain.textures = Textures::none;
+        drop_excluded_defaults(plain, {.collision = named, .wind = named});
+        EXPECT_EQ(plain.file.collision, CollisionFormat::omi);
+        EXPECT_EQ(plain.file.wind, named ? WindFormat::uv : WindFormat::none);
+        // A query names what is excluded, and nothing that follows.
+        EXPECT_EQ(query_text(plain, with_profile(TreeParams{}, plain)),
+                  named ? "textures=none&profile=godot&wind=uv" : "textures=none&profile=godot");
+    }
+    MushroomParams mushroom;
+    mushroom.file.wind = WindFormat::attribute;
+    mushroom.textures = Textures::none;
+    drop_excluded_defaults(mushroom, {});
+    EXPECT_EQ(mushroom.file.wind, WindFormat::attribute) << "which needs no texture coordinates";
 }
 
 }  // namespace

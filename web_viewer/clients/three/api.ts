@@ -173,7 +173,7 @@ export interface components {
                     variants?: "none" | "weather";
                     /**
                      * profile
-                     * @description The engine that reads the file: sets the defaults of lod and of the options below, each of which may still be given. core is plain glTF, which every loader reads.
+                     * @description The engine that reads the file: sets the defaults of lod and of the options below, each of which may still be given; collision and wind only where other options allow them. core is plain glTF, which every loader reads.
                      * @default core
                      * @enum {string}
                      */
@@ -205,14 +205,12 @@ export interface components {
                     /**
                      * collision
                      * @description Solids for a physics engine, the same at every level of detail: a capsule or convex meshes for stem and cap, for each individual of a colony, and for the trunk of a tree. nodes: meshes named UCX_..., as Unreal Engine expects, which viewers show. omi: a static body by OMI_physics_body and OMI_physics_shape, which Godot reads, with geometry as floats only. A leaf has none.
-                     * @default none
                      * @enum {string}
                      */
                     collision?: "none" | "nodes" | "omi";
                     /**
                      * wind
                      * @description Weights by which a shader moves the vertices in wind: bend (0 at the ground), flutter of leaves, phase, number of the branch. uv: as TEXCOORD_1 and TEXCOORD_2, which most engines import. attribute: as _WIND, for three.js. color: as COLOR_0, by which viewers multiply the colours. extras.wind of the file names the channels and states the displacements in metres.
-                     * @default none
                      * @enum {string}
                      */
                     wind?: "none" | "uv" | "attribute" | "color";

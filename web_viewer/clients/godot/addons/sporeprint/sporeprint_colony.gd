@@ -48,7 +48,8 @@ func load_colony() -> Array[GeometryInstance3D]:
 
 ## Returns the path of the file below the server.
 func path() -> String:
-	var query := {"profile": "godot", "lod": lod}
+	# A MultiMesh has no bodies.
+	var query := {"profile": "godot", "lod": lod, "collision": "none"}
 	query.merge(parameters, true)
 	return "/v1/colonies/%s.glb?%s" % [species, HTTPClient.new().query_string_from_dict(query)]
 

@@ -61,11 +61,9 @@ func load_model() -> Array[GeometryInstance3D]:
 
 ## Returns the path of the file below the server.
 func path() -> String:
-	var query := {"profile": "godot", "lods": "nodes", "lod": lod}
-	if collision:
-		query["collision"] = "omi"
-	if wind:
-		query["wind"] = "uv"
+	# Both are named, since the profile sets them for some products.
+	var query := {"profile": "godot", "lods": "nodes", "lod": lod,
+			"collision": "omi" if collision else "none", "wind": "uv" if wind else "none"}
 	query.merge(parameters, true)
 	return "/v1/%s.glb?%s" % [product, HTTPClient.new().query_string_from_dict(query)]
 
