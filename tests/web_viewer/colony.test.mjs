@@ -31,7 +31,7 @@ async function open(t, query, viewport = undefined) {
     await page.goto(`${base}/${query}`);
     await ready(page);
     await page
-        .locator("#form details:not([open]) summary")
+        .locator("form details:not([open]) summary")
         .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, log };
 }
@@ -39,7 +39,7 @@ async function open(t, query, viewport = undefined) {
 const small = "lod=2&texture_size=128";
 const parameters = (page) => Object.fromEntries(new URL(page.url()).searchParams);
 const counts = (page) => page.evaluate(() => window.sporeprint.counts);
-const row = (page, name) => page.locator(`#form .control[data-name="${name}"]`);
+const row = (page, name) => page.locator(`form .control[data-name="${name}"]`);
 const number = (page, name) => page.locator(`input[type=number][name="${name}"]`);
 
 function expectNoProblems(log) {
@@ -57,7 +57,7 @@ test("the page of colonies offers all species and parameters and counts individu
     );
     const schema = await (await fetch(`${base}/v1/colonies/schema`)).json();
     const shown = await page
-        .locator("#form .control")
+        .locator("form .control")
         .evaluateAll((all) => all.map((one) => one.dataset.name));
     assert.deepEqual(
         [...shown].sort(),
@@ -186,7 +186,8 @@ test("the links carry a mix from the morph editor to its colony and back", async
 });
 
 test("a colony of GPU instances is counted and framed like one of nodes", async (t) => {
-    const { page, log } = await open(t, `?colony=coprinus_comatus&count=8&distinct=2&${small}`);
+    const query = `?colony=coprinus_comatus&count=8&distinct=2&panel=export&${small}`;
+    const { page, log } = await open(t, query);
     const nodes = await page.evaluate(() => ({
         ...window.sporeprint.counts,
         ...window.sporeprint.size,

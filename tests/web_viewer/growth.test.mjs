@@ -172,7 +172,7 @@ test("the age poses a loaded clip without a request until it stays the same", as
 });
 
 test("the number of frames is neither shown nor sent without a clip", async (t) => {
-    const { page, log } = await open(t, "&animation=growth&frames=5&lod=3");
+    const { page, log } = await open(t, "&animation=growth&frames=5&lod=3&panel=export");
     await page.evaluate(() =>
         document.querySelectorAll("details").forEach((details) => (details.open = true)),
     );

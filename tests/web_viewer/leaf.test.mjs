@@ -28,7 +28,7 @@ async function open(t, query) {
     await page.goto(`${base}/${query}`);
     await ready(page);
     await page
-        .locator("#form details:not([open]) summary")
+        .locator("form details:not([open]) summary")
         .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, log };
 }
@@ -55,7 +55,7 @@ test("the page of leaves offers every preset and every parameter of the schema",
             sub.properties ? names(sub, `${prefix}${key}.`) : [prefix + key],
         );
     const shown = await page
-        .locator("#form .control")
+        .locator("form .control")
         .evaluateAll((all) => all.map((one) => one.dataset.name));
     assert.deepEqual([...shown].sort(), names(schema).sort());
     assert.equal(await page.locator("#mode-leaf").getAttribute("aria-current"), "page");

@@ -238,7 +238,7 @@ test("every control is a native input with query name, description and valid val
     for (const name of names)
         assert.ok((await page.locator(`[name="${name}"]`).count()) >= 1, `${name} has a control`);
     const errors = await page.evaluate(() =>
-        [...document.querySelectorAll("#form [name]")].flatMap((entry) => {
+        [...document.querySelectorAll("form [name]")].flatMap((entry) => {
             const wrong = [];
             const about = entry.getAttribute("aria-describedby")?.split(" ")[0];
             if (!document.getElementById(about)?.textContent) wrong.push("no description");
@@ -405,7 +405,7 @@ test("the whole page can be used by keyboard and the focus is always visible", a
         "wireframe",
         "download",
         "copy-url",
-        "copy-curl",
+        "tab-shape",
         "open",
         species[0].id,
         species.at(-1).id,
@@ -473,6 +473,7 @@ test("the downloaded file and the copied address are the same bytes", async (t) 
     const address = await page.evaluate(() => navigator.clipboard.readText());
     assert.match(address, /^http.*\/v1\/mushrooms\/.*seed=7/);
     assert.deepEqual(Buffer.from(await (await fetch(address)).arrayBuffer()), saved);
+    await page.locator("#tab-export").click();
     await page.locator("#copy-curl").click();
     await page.waitForFunction(
         () => document.querySelector("#status").textContent === "curl command copied",
@@ -521,6 +522,14 @@ test("solids for collision are drawn as edges and are no draw calls", async (t) 
     const { page: solid, log } = await open(t, `${query}&collision=nodes`);
     assert.deepEqual(await solid.evaluate(() => window.sporeprint.counts), plain);
     assert.notDeepEqual(await stagePicture(solid), picture);
+    const { page: body, log: ofBody } = await open(t, `${query}&collision=omi`);
+    const withSolids = await stagePicture(body);
+    assert.notDeepEqual(withSolids, picture);
+    await body.evaluate(() => document.querySelector("#solids").click());
+    await body.evaluate(() => window.sporeprint.ready());
+    assert.notDeepEqual(await stagePicture(body), withSolids, "they can be hidden");
+    assert.equal(parameters(body).get("solids"), "hidden");
+    expectNoProblems(ofBody);
     expectNoProblems(log);
 });
 
@@ -528,7 +537,6 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
     const still = `?species=mycena_sanguinolenta&lod=2&texture_size=128`;
     const { page: without } = await open(t, still);
     assert.ok(await without.locator("#breeze").isHidden());
-    assert.ok(await without.locator("#wind-weights").isHidden());
     for (const format of ["uv", "attribute", "color"]) {
         const { page, log } = await open(t, `${still}&wind=${format}`);
         const press = (button) =>
@@ -540,9 +548,14 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
                 return document.querySelector("#canvas").toDataURL();
             });
         const rest = await drawn();
-        await press("#wind-weights");
-        assert.notEqual(await drawn(), rest, `${format}: weights are shown`);
-        await press("#wind-weights");
+        const views = new Set([rest]);
+        for (const channel of ["all", "bend", "phase"]) {
+            await press(`[data-channel="${channel}"]`);
+            views.add(await drawn());
+            assert.equal(parameters(page).get("weights"), channel);
+        }
+        assert.equal(views.size, 4, `${format}: each weight is shown`);
+        await press('[data-channel="phase"]');
         assert.equal(await drawn(), rest);
         const before = await page.evaluate(() => window.sporeprint.renderer.frames);
         await press("#breeze");
@@ -554,25 +567,109 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
     }
 });
 
-test("numbers tell the memory of images and the levels, and code for an engine is copied", async (t) => {
-    const { page, log } = await open(t, "?species=boletus_edulis&lod=1&texture_size=512&profile=godot");
-    await page.locator("#level-list").waitFor();
-    const numbers = await page.locator("#number-list").innerText();
-    // Three images of 256 x 256 with mipmaps.
-    assert.match(numbers, /3, 1\.0 MB on the graphics card/);
-    assert.match(numbers, /L1 [\d,\u2009\u202f ]+ down to .*L3/);
-    const copied = page.waitForEvent("dialog").then(async (dialog) => {
+/** Returns what a button copies, as the page shows it where it may not use the clipboard. */
+async function copied(page, button) {
+    await page.evaluate(() => {
+        navigator.clipboard.writeText = () => Promise.reject(new Error("not allowed"));
+    });
+    const shown = page.waitForEvent("dialog").then(async (dialog) => {
         const text = dialog.defaultValue();
         await dialog.accept();
         return text;
     });
-    await page.evaluate(() => {
-        navigator.clipboard.writeText = () => Promise.reject(new Error("not allowed"));
+    await page.locator(button).click();
+    return shown;
+}
+
+const posted = (path_, body) =>
+    fetch(`${base}${path_}`, {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body,
     });
-    await page.locator("#copy-code").click();
-    const text = await copied;
-    assert.match(text, /GLTFDocument/);
-    assert.match(text, /\/v1\/mushrooms\/boletus_edulis\.glb\?.*profile=godot/);
+
+test("the export panel has every switch of the file, its costs, and what can be copied", async (t) => {
+    const { page, log } = await open(
+        t,
+        "?species=boletus_edulis&lod=1&texture_size=512&profile=godot&panel=export",
+        { width: 360, height: 740 },
+    );
+    const { properties } = await (await fetch(`${base}/v1/mushrooms/schema`)).json();
+    const ofFile = Object.keys(properties).filter((name) => properties[name]["x-group"] === "file");
+    assert.ok(ofFile.length >= 7);
+    for (const name of ofFile)
+        assert.ok(await page.locator(`#export-form [name="${name}"]`).first().isVisible(), name);
+    assert.equal(await page.locator("#form").isVisible(), false);
+    const costs = await page.locator("#costs").innerText();
+    const { triangles } = await page.evaluate(() => window.sporeprint.counts);
+    assert.equal(/Triangles\s+([\d\u202f]+)/.exec(costs)[1].replace("\u202f", ""), `${triangles}`);
+    // Three images of 256 x 256 with mipmaps.
+    assert.match(costs, /Texture memory\s+1\.0 MB/);
+    assert.match(costs, /Draw calls\s+1/);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
+
+    const code = await copied(page, "#copy-code");
+    assert.match(code, /GLTFDocument/);
+    assert.match(code, /\/v1\/mushrooms\/boletus_edulis\.glb\?.*profile=godot/);
+    const manifest = JSON.parse(await copied(page, "#copy-manifest"));
+    assert.match(manifest.canonical, /boletus_edulis\.glb/);
+    assert.equal(manifest.effective.profile, "godot");
+    const set = await posted("/v1/sets.json", await copied(page, "#copy-set"));
+    assert.equal(set.status, 200, await set.clone().text());
+    const { files } = await set.json();
+    assert.deepEqual(new Set(files.map(({ lod }) => lod)), new Set([1, 2, 3]));
+    assert.ok(files.every(({ url }) => /boletus_edulis.*profile=godot/.test(url)));
+    expectNoProblems(log);
+
+    await page.locator("#tab-export").focus();
+    await page.keyboard.press("ArrowLeft");
+    assert.ok(await page.locator("#form").isVisible());
+    assert.equal(parameters(page).get("panel"), null);
+    await page.keyboard.press("ArrowRight");
+    assert.equal(parameters(page).get("panel"), "export");
+    await page.goto(`${page.url()}&lods=half`);
+    await ready(page);
+    assert.match(
+        await page.locator('.control[data-name="lods"] .validation-error').textContent(),
+        /'half' cannot be read/,
+    );
+});
+
+test("levels of detail are shown as large as they are drawn last", async (t) => {
+    const small = "?species=boletus_edulis&lod=1&texture_size=128&panel=export";
+    const shown = (page) =>
+        page.evaluate(async () => {
+            await window.sporeprint.ready();
+            return window.sporeprint.shown;
+        });
+    for (const lods of ["msft", "nodes"]) {
+        const { page, log } = await open(t, `${small}&lods=${lods}&collision=omi`);
+        const { levels } = await (
+            await fetch(`${base}/v1/mushrooms/boletus_edulis.json?lod=1&texture_size=128`)
+        ).json();
+        await page.locator('[data-level="2"]').click();
+        let { triangles, pixels } = await shown(page);
+        assert.ok(Math.abs(pixels / (levels[1].screen_coverage * 1080) - 1) < 0.02, `${pixels}`);
+        assert.ok(triangles < 0.5 * levels[0].triangles && triangles > levels[2].triangles);
+        assert.equal(parameters(page).get("level"), "2");
+        assert.equal(parameters(page).get("lod"), "1", "the file is the same");
+        await page.locator("#level-screen").selectOption("2160");
+        assert.ok(Math.abs((await shown(page)).pixels / (2 * pixels) - 1) < 0.02);
+        await page.reload();
+        await ready(page);
+        assert.equal((await shown(page)).triangles, triangles, "the address has the level");
+        await page.locator('[data-level="2"]').click();
+        assert.ok((await shown(page)).triangles > triangles);
+        assert.equal(parameters(page).get("level"), null);
+        expectNoProblems(log);
+    }
+    const { page, log } = await open(t, small);
+    await page.locator('[data-level="0"]').waitFor();
+    await page.locator('[data-level="3"]').click();
+    await ready(page);
+    assert.equal(parameters(page).get("lod"), "3", "a level of its own is another file");
+    assert.equal(await page.locator('[data-level="3"]').getAttribute("aria-pressed"), "true");
+    await page.locator('[data-level="0"]').waitFor();
     expectNoProblems(log);
 });
 

@@ -35,7 +35,7 @@ async function open(t, query) {
     await page.goto(`${base}/${query}`);
     await ready(page);
     await page
-        .locator("#form details:not([open]) summary")
+        .locator("form details:not([open]) summary")
         .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, log };
 }
@@ -67,7 +67,7 @@ test("the page of trees offers every preset and parameter and shows the matrix",
                   : [prefix + key],
         );
     const shown = await page
-        .locator("#form .control")
+        .locator("form .control")
         .evaluateAll((all) => all.map((one) => one.dataset.name));
     assert.deepEqual([...shown].sort(), names(schema).sort());
     assert.equal(await page.locator("#mode-tree").getAttribute("aria-current"), "page");

@@ -17,11 +17,14 @@ const { outputFiles } = packages("esbuild").buildSync({
             "gallery",
             "history",
             "http",
+            "level_ranges",
+            "manifest",
             "mix",
             "products",
             "rows",
             "schema",
             "settings",
+            "view_state",
             "weights",
         ]
             .map((name) => `export * from "./${name}";`)
@@ -720,4 +723,68 @@ test("a covering array contains every pair or triple in fewer rows than the prod
             );
         }
     }
+});
+
+test("each level is drawn from where the one before ends, at the size that it states", () => {
+    const levels = [
+        { lod: 0, triangles: 900, screen_coverage: 0.5 },
+        { lod: 1, triangles: 90, screen_coverage: 0.1 },
+    ];
+    const [first, last] = page.rangesOf(levels, 2, 90, 1080);
+    // At 90 degrees the screen is twice as high as it is away.
+    assert.deepEqual([first.near, first.far.toFixed(9)], [0, "2.000000000"]);
+    assert.deepEqual([last.near, last.far.toFixed(9)], [first.far, "10.000000000"]);
+    assert.deepEqual([first.pixels, last.pixels], [540, 108]);
+    const narrow = page.rangesOf(levels, 2, 45, 2160);
+    assert.ok(narrow[0].far > first.far && narrow[0].pixels === 1080);
+    for (const [length, text] of [
+        [0.0423, "4.2 cm"],
+        [0.18, "18 cm"],
+        [0.9999, "1 m"],
+        [4.16, "4.2 m"],
+        [99.4, "99 m"],
+        [1300, "1.3 km"],
+    ])
+        assert.equal(page.metres(length), text);
+});
+
+test("the views are part of the page's address, and no request has them", () => {
+    const query = "panel=export&solids=hidden&weights=phase&level=2&fov=75&screen=2160";
+    const view = page.readView(new URLSearchParams(query));
+    assert.equal(page.viewQuery(view), `&${query}`);
+    assert.deepEqual(page.readView(new URLSearchParams()), page.initialView);
+    assert.equal(page.viewQuery(page.initialView), "");
+    for (const wrong of ["panel=x", "weights=sway", "level=-1", "fov=9", "fov=x", "screen=1"])
+        assert.deepEqual(page.readView(new URLSearchParams(wrong)), page.initialView, wrong);
+    const settings = new page.Settings(
+        page.groupsOf(schema).flatMap(({ fields }) => fields),
+        "a",
+    );
+    assert.deepEqual(settings.read(new URLSearchParams(`species=a&lod=1&${query}`)), []);
+    assert.equal(settings.pageQuery(new URLSearchParams(query)), `?species=a&lod=1&${query}`);
+    assert.equal(settings.request().address, "v1/mushrooms/a.glb?lod=1");
+});
+
+test("the request of a set has the options of the file and chooses seeds, ages and levels", () => {
+    const settings = new page.Settings(
+        page.groupsOf(schema).flatMap(({ fields }) => fields),
+        "a:0.7,b:0.3",
+    );
+    settings.set("seed", 5);
+    settings.set("age", 0.25);
+    settings.set("lod", 1);
+    settings.set("texture_size", 128);
+    settings.set("deformation.bend_deg", 20);
+    const { seeds, individuals, ...rest } = JSON.parse(page.setRequestOf(settings, [1, 2, 3]));
+    assert.ok(seeds >= 1 && individuals >= 1);
+    assert.deepEqual(rest, {
+        species: ["a:0.7,b:0.3"],
+        ages: [0.25],
+        first_seed: 5,
+        levels: [1, 2, 3],
+        texture_size: 128,
+        deformation: { bend_deg: 20 },
+    });
+    const tree = new page.Settings([], "birch", page.trees);
+    assert.equal(page.setRequestOf(tree, [0]), undefined, "a set consists of mushrooms");
 });

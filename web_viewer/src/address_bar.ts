@@ -4,6 +4,7 @@ import type { ProblemItem } from "./http";
 import { productOf } from "./products";
 import { mixPattern, type Settings } from "./settings";
 import type { SheetKind } from "./sheet";
+import { viewNames, viewQuery, type ViewState } from "./view_state";
 
 /** Changes of one setting within this time are one step of the browser's history. */
 const sameStepMs = 1500;
@@ -59,6 +60,17 @@ export class AddressBar {
         this.flush();
         const address = this.settings.pageQuery(query) + (kind ? `&sheet=${kind}` : "");
         history[kind ? "pushState" : "replaceState"](null, "", address);
+    }
+
+    /** Writes the state of the views, which is no step of the history. */
+    writeView(view: ViewState): void {
+        this.flush();
+        const query = new URLSearchParams(location.search);
+        for (const name of viewNames) query.delete(name);
+        for (const [name, value] of new URLSearchParams(viewQuery(view))) query.set(name, value);
+        const sheet = query.get("sheet");
+        const address = this.settings.pageQuery(query) + (sheet ? `&sheet=${sheet}` : "");
+        history.replaceState(null, "", address);
     }
 
     /** Reads the URL into the settings. Returns undefined, and loads the page anew, if the URL is

@@ -8,6 +8,8 @@ export interface ControlEvents {
     moving: (field: Field) => void;
     /** A control was released. */
     moved: (field: Field) => void;
+    /** A message is shown below this element. */
+    errorShown: (element: HTMLElement) => void;
 }
 
 type Entry = HTMLInputElement | HTMLSelectElement;
@@ -226,10 +228,10 @@ export class Controls {
     private effective: unknown;
 
     constructor(
-        host: HTMLElement,
+        hostOf: (group: Group) => HTMLElement,
         groups: readonly Group[],
         settings: Settings,
-        events: ControlEvents,
+        private readonly events: ControlEvents,
     ) {
         groups.forEach((group, index) => {
             const made = group.fields.map((field) => new Control(field, settings, events));
@@ -245,6 +247,8 @@ export class Controls {
                     ...fields,
                 ),
             );
+            const host = hostOf(group);
+            element.open ||= host.childElementCount === 0;
             host.append(element);
             this.controls.push(...made);
             this.sections.push({ element, controls: made });
@@ -275,6 +279,8 @@ export class Controls {
         if (details) {
             details.open = true;
             details.hidden = false;
+            // The message may be in a panel that is not open.
+            this.events.errorShown(details);
         }
         return true;
     }

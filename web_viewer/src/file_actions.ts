@@ -1,5 +1,7 @@
-// The buttons for the shown model: download, copied URL, copied curl command, copied code.
+// The buttons for the shown model: download, and copies of its URL, curl command, code, manifest
+// and the request of a set.
 import { byId, make } from "./dom";
+import { asRequestFailed, getJson } from "./http";
 import type { LoadedModel } from "./model_loader";
 import { snippetFor } from "./snippets";
 import { announce } from "./status_line";
@@ -34,8 +36,12 @@ function canonicalUrl({ fetched, request }: LoadedModel): string {
 export class FileActions {
     private shown: LoadedModel | undefined;
 
-    /** `noun` names files that the server gave no name. */
-    constructor(private readonly noun: string) {
+    /** `noun` names files that the server gave no name; `setRequest` returns the body that requests
+     *  a set like the model, undefined if there is none. */
+    constructor(
+        private readonly noun: string,
+        private readonly setRequest: () => string | undefined,
+    ) {
         byId("download").addEventListener("click", () => {
             if (!this.shown) return;
             const blob = new Blob([this.shown.fetched.bytes], { type: "model/gltf-binary" });
@@ -53,21 +59,38 @@ export class FileActions {
             const profile = new URL(url).searchParams.get("profile") ?? "";
             void copy(snippetFor(profile, url), "Code");
         });
+        byId("copy-manifest").addEventListener("click", () => {
+            if (this.shown) void this.copyManifest(canonicalUrl(this.shown));
+        });
+        byId("copy-set").addEventListener("click", () => {
+            const body = this.setRequest();
+            if (body !== undefined) void copy(body, "Set request");
+        });
     }
 
     /** Lets the buttons act on this model; drafts cannot be taken away. */
     show(loaded: LoadedModel): void {
         this.shown = loaded;
         const { fetched, draft, request } = loaded;
-        for (const id of ["download", "copy-url", "copy-curl", "copy-code"]) {
+        for (const id of ["download", "copy-url", "copy-curl", "copy-code", "copy-manifest"]) {
             byId<HTMLButtonElement>(id).disabled = draft;
         }
+        byId<HTMLButtonElement>("copy-set").disabled = draft || this.setRequest() === undefined;
         if (request.body !== undefined) {
             // Arcs and rows are sent in a body: a URL exists only if the server names one.
-            for (const id of ["copy-url", "copy-code"]) {
+            for (const id of ["copy-url", "copy-code", "copy-manifest"]) {
                 byId<HTMLButtonElement>(id).disabled =
                     !fetched.response.headers.has("content-location");
             }
+        }
+    }
+
+    private async copyManifest(url: string): Promise<void> {
+        try {
+            const address = url.replace(/\.glb(?=\?|$)/, ".json");
+            await copy(JSON.stringify(await getJson(address), undefined, 2), "Manifest");
+        } catch (error) {
+            announce(asRequestFailed(error, "The manifest could not be read").message);
         }
     }
 

@@ -1,6 +1,7 @@
 // Entry point: fetches the schema and the list of the product that the URL names, and puts the page
 // together.
 import "./app.css";
+import "./export.css";
 import { byId } from "./dom";
 import { asRequestFailed, getJson } from "./http";
 import { ModeLinks } from "./mode_links";

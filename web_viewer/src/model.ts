@@ -1,13 +1,12 @@
 // Parsed GLBs: reading, measuring, counting and disposing.
 import {
     Box3,
-    EdgesGeometry,
     InstancedMesh,
-    LineBasicMaterial,
     LineSegments,
     Mesh,
     MeshStandardMaterial,
     Texture,
+    type BufferGeometry,
     type Material,
     type Object3D,
 } from "three";
@@ -16,6 +15,8 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { MaterialVariants } from "../clients/three/variants";
 import { windOf, type WindExtras } from "../clients/three/wind";
 import type { DraftTextures } from "./draft_textures";
+import { levelNodesOf } from "./levels";
+import { outline } from "./solids";
 
 export interface Counts {
     triangles: number;
@@ -63,26 +64,9 @@ function useDerivativeTangents(mesh: Mesh): void {
     }
 }
 
-/** The colour of the edges of solids for collision, which differs from those of mushrooms. */
-const solidColour = 0x1f7a8c;
-
-/** Replaces the solids for collision by their edges: engines do not draw them, and here they would
- *  hide what they stand for. */
+/** Replaces the meshes of solids for collision by their edges. */
 function outlineSolids(scene: Object3D): void {
-    for (const mesh of meshesOf(scene)) {
-        if (mesh.userData["collision"] === undefined) continue;
-        const outline = new LineSegments(
-            new EdgesGeometry(mesh.geometry),
-            new LineBasicMaterial({ color: solidColour }),
-        );
-        outline.name = mesh.name;
-        outline.userData = mesh.userData;
-        outline.position.copy(mesh.position);
-        outline.quaternion.copy(mesh.quaternion);
-        outline.scale.copy(mesh.scale);
-        mesh.parent?.add(outline);
-        mesh.removeFromParent();
-    }
+    for (const mesh of meshesOf(scene)) if (mesh.userData["collision"] !== undefined) outline(mesh);
 }
 
 /** Returns the addresses of the linked images that a draft does not have yet, by role. */
@@ -103,6 +87,17 @@ export function modelVariants(model: Object3D): MaterialVariants | undefined {
     return model.userData["variants"] as MaterialVariants | undefined;
 }
 
+/** Returns the nodes of the levels of detail of a model, finest first; none of a model with one
+ *  level. */
+export function modelLevels(model: Object3D): Object3D[] {
+    return (model.userData["levels"] as Object3D[] | undefined) ?? [];
+}
+
+/** Returns the part of a model that is shown: its visible level of detail, or all of it. */
+export function shownPart(model: Object3D): Object3D {
+    return modelLevels(model).find(({ visible }) => visible) ?? model;
+}
+
 /** Parses a GLB. Links to images are relative to the address `from`; they are fetched now, or later
  *  if shared textures are given. */
 export async function parseModel(
@@ -116,6 +111,7 @@ export async function parseModel(
     const file = await loader.parseAsync(bytes, new URL(".", from).href);
     const { scene } = file;
     scene.animations = file.animations;
+    scene.userData["levels"] = await levelNodesOf(file);
     scene.userData["wind"] = windOf(file.asset);
     scene.userData["variants"] = new MaterialVariants(file);
     scene.userData["linkedImages"] = linkedImages;
@@ -135,11 +131,12 @@ function bytesOf({ image }: Texture): number {
     return (width * height * 4 * 4) / 3;
 }
 
+/** Returns the counts of the level of detail that is shown, and of all images. */
 export function countsOf(model: Object3D): Counts {
     const textures = texturesOf(model);
     const imageBytes = [...textures].reduce((sum, texture) => sum + bytesOf(texture), 0);
     const counts = { triangles: 0, vertices: 0, drawCalls: 0, textures: textures.size, imageBytes };
-    for (const mesh of meshesOf(model)) {
+    for (const mesh of meshesOf(shownPart(model))) {
         const { geometry } = mesh;
         const times = mesh instanceof InstancedMesh ? mesh.count : 1;
         const vertices = geometry.getAttribute("position")?.count ?? 0;
@@ -150,9 +147,14 @@ export function countsOf(model: Object3D): Counts {
     return counts;
 }
 
-/** Returns the node of a colony's roots and stems, undefined if it has none. */
+/** Returns the node of a colony's roots and stems at the level of detail that is shown, undefined
+ *  if it has none. */
 export function stemsOf(model: Object3D): Object3D | undefined {
-    return model.children.find(({ name }) => name.endsWith("_stems"));
+    let stems: Object3D | undefined;
+    shownPart(model).traverse((node) => {
+        if (node.name.endsWith("_stems")) stems ??= node;
+    });
+    return stems;
 }
 
 /** Returns the bounds of the transformed vertices, metres. */
@@ -185,7 +187,7 @@ export function disposeModel(model: Object3D): void {
     }
     model.traverse((node) => {
         if (!(node instanceof LineSegments)) return;
-        const { geometry, material } = node as LineSegments<EdgesGeometry, LineBasicMaterial>;
+        const { geometry, material } = node as LineSegments<BufferGeometry, Material>;
         geometry.dispose();
         material.dispose();
     });

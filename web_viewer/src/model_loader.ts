@@ -4,9 +4,10 @@ import type { Object3D } from "three";
 import { asRequestFailed, getJson, getModel, type RequestFailed, type FetchedModel } from "./http";
 import { parseModel } from "./model";
 import type { DraftTextures } from "./draft_textures";
-import type { LevelReport } from "./number_list";
+import type { LevelReport } from "./level_ranges";
 import type { LoadProgress } from "./progress_box";
 import type { Settings, ModelRequest } from "./settings";
+import type { CollisionReport } from "./solids";
 
 export interface LoadedModel {
     fetched: FetchedModel;
@@ -25,6 +26,9 @@ export interface ModelReport {
     matrix?: number[][];
     /** The level of detail that is shown and all below it. */
     levels?: LevelReport[];
+    bounds_m?: { min: number[]; max: number[] };
+    /** Solids of a file with collision. */
+    collision?: CollisionReport;
     /** Number of individuals, of a colony. */
     made?: number;
 }

@@ -5,6 +5,7 @@ import type { ViewName } from "./camera";
 import { Controls } from "./controls";
 import { byId, grouped, kilobytes } from "./dom";
 import { MorphEditor } from "./editor";
+import { ExportPanel } from "./export_panel";
 import { FileActions, saveFile } from "./file_actions";
 import { acceptFiles, inspectFile } from "./file_drop";
 import { Gallery, type Species } from "./gallery";
@@ -12,26 +13,36 @@ import { connectSearch } from "./gallery_search";
 import { ModelLoader, type LoadedModel, type ModelReport } from "./model_loader";
 import { GrowthPlayer, restMs } from "./growth_player";
 import { asRequestFailed, type ProblemItem, type RequestFailed } from "./http";
+import { setRequestOf } from "./manifest";
 import { MatrixTable } from "./matrix";
 import { readShares } from "./mix";
 import type { ModeLinks } from "./mode_links";
 import { countsOf, linkedImagesOf, modelVariants, modelWind, type Counts } from "./model";
 import { NamePlate, type ColonyCount } from "./name_plate";
-import { showLevels, showNumbers } from "./number_list";
 import { DraftTextures } from "./draft_textures";
+import { PanelTabs } from "./panel_tabs";
 import { ProblemBox } from "./problem_box";
 import { mushrooms, type Product } from "./products";
 import { showProgress } from "./progress_box";
 import { showScaleBar } from "./scale_bar";
-import { groupsOf, valueAt, type Schema } from "./schema";
+import { groupsOf, valueAt, type Group, type Schema } from "./schema";
 import { Settings } from "./settings";
 import { Sheet, sheetButtons } from "./sheet";
 import type { Stage } from "./stage";
 import { announce } from "./status_line";
 import { Toolbar } from "./toolbar";
+import { panels, readView, type PanelName } from "./view_state";
 
 /** Time in which quick changes become one request, milliseconds. */
 const changeDelayMs = 60;
+
+/** Returns a group with the profile first, which sets the defaults of other options. */
+function profileFirst(group: Group): Group {
+    const [profile, others] = [true, false].map((is) =>
+        group.fields.filter(({ name }) => (name === "profile") === is),
+    );
+    return { ...group, fields: [...(profile ?? []), ...(others ?? [])] };
+}
 
 export interface PageParts {
     stage: Stage;
@@ -60,6 +71,8 @@ export class Page {
     private readonly address: AddressBar;
     private readonly gallery: Gallery;
     private readonly controls: Controls;
+    private readonly tabs: PanelTabs;
+    private readonly exports: ExportPanel;
     private readonly editor: MorphEditor;
     private readonly matrix: MatrixTable | undefined;
     private readonly sheet: Sheet;
@@ -84,13 +97,23 @@ export class Page {
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
         connectSearch(this.gallery);
         this.plate = new NamePlate(product, (id) => this.gallery.find(id));
-        this.actions = new FileActions(product.noun);
-        this.controls = new Controls(byId("form"), groups, this.settings, {
+        this.tabs = new PanelTabs((name) => this.writePanel(name));
+        this.exports = new ExportPanel(this.settings, stage, {
+            viewChanged: (view) => this.address.writeView(view),
+            lodChosen: () => this.changed("lod"),
+        });
+        this.actions = new FileActions(product.noun, () =>
+            setRequestOf(this.settings, this.exports.lods),
+        );
+        const hostOf = ({ key }: Group): HTMLElement =>
+            byId(key === "file" ? "export-form" : "form");
+        this.controls = new Controls(hostOf, groups.map(profileFirst), this.settings, {
             moving: ({ name }) => {
                 this.controls.show();
                 if (name !== "age" || !this.player.pose()) this.loader.loadDraft();
             },
             moved: ({ name }) => this.changed(name),
+            errorShown: (element) => this.openPanelOf(element),
         });
         this.editor = new MorphEditor(this.settings, species, {
             moving: () => {
@@ -134,7 +157,8 @@ export class Page {
         links.connect({ species: () => this.leaveEditor(), morph: () => this.enterEditor() });
         if (product.canMorph) byId("sheets").append(sheetButtons((kind) => this.sheet.show(kind)));
         acceptFiles((file) => void this.inspect(file));
-        byId("form").addEventListener("submit", (event) => event.preventDefault());
+        for (const id of ["form", "export-form"])
+            byId(id).addEventListener("submit", (event) => event.preventDefault());
         addEventListener("popstate", () => this.readAddress());
         this.readAddress();
         if (!options.withoutPictures) void this.showPictures();
@@ -153,7 +177,8 @@ export class Page {
     }
 
     get counts(): Counts {
-        if (!this.loaded) return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0, imageBytes: 0 };
+        if (!this.loaded)
+            return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0, imageBytes: 0 };
         return countsOf(this.loaded.model);
     }
 
@@ -202,10 +227,24 @@ export class Page {
         this.loader.loadFinal(false, changeDelayMs);
     }
 
+    private writePanel(panel: PanelName): void {
+        this.exports.panel = panel;
+    }
+
+    private openPanelOf(element: HTMLElement): void {
+        const hidden = panels.find((name) => byId(`panel-${name}`).contains(element));
+        if (!hidden || !byId(`panel-${hidden}`).hidden) return;
+        this.tabs.open(hidden);
+        this.writePanel(hidden);
+    }
+
     private readAddress(): void {
         const contents = this.address.read();
         if (!contents) return;
         const { otherMix, rejected, sheet } = contents;
+        const view = readView(new URLSearchParams(location.search));
+        this.tabs.open(view.panel);
+        this.exports.read(view);
         this.begin(otherMix || !this.loaded);
         this.problems.showRejected(rejected);
         if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) {
@@ -263,7 +302,7 @@ export class Page {
             this.matrix?.clearErrors();
         }
         this.problems.showRejectedAgain();
-        showNumbers(loaded);
+        this.exports.show(loaded);
         if (loaded.draft) this.colonyCount = undefined;
         this.plate.showSize(this.stage.size, this.colonyCount);
         this.actions.show(loaded);
@@ -278,8 +317,9 @@ export class Page {
     }
 
     /** Shows what the service reports about the shown model. */
-    private showEffective({ effective, matrix, made, levels }: ModelReport): void {
-        showLevels(levels ?? []);
+    private showEffective(report: ModelReport): void {
+        const { effective, matrix, made } = report;
+        this.exports.showReport(report);
         this.controls.show(effective);
         this.toolbar.markLod(effective);
         this.matrix?.showServed(matrix);

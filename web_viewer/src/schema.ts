@@ -70,7 +70,7 @@ export function words(name: string): string {
     const text = name
         .replace(/_(deg|m|mm|px)$/, "")
         .replaceAll("_", " ")
-        .replace(/\blod\b/, "LOD");
+        .replace(/\blod(s?)\b/, "LOD$1");
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 

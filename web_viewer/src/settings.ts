@@ -13,6 +13,7 @@ import {
 import { mushrooms, products, type Product } from "./products";
 import { readRows, rowsText } from "./rows";
 import { validationError, parsed, type Field, type Value } from "./schema";
+import { readView, viewNames, viewQuery } from "./view_state";
 
 /** A mix in the service's syntax: "boletus_edulis" or "a:0.7,b:0.3". */
 export const mixPattern = /^[a-z0-9_]+(:[0-9.eE+-]+)?(,[a-z0-9_]+(:[0-9.eE+-]+)?){0,7}$/;
@@ -36,6 +37,7 @@ export interface ModelRequest {
 /** Names in the page's query that are not parameters of the product. */
 const pageNames = new Set([
     ...products.map(({ queryName: kind }) => kind),
+    ...viewNames,
     "shot",
     "morph",
     "arcs",
@@ -106,7 +108,7 @@ export class Settings {
     }
 
     /** Returns the values that differ as a JSON body: dotted names become nested objects. */
-    private nested(replaced: ReadonlyMap<string, Value>): Record<string, unknown> {
+    nested(replaced: ReadonlyMap<string, Value> = new Map()): Record<string, unknown> {
         const out: Record<string, unknown> = {};
         for (const field of this.fields) {
             if (!this.applies(field, replaced)) continue;
@@ -196,10 +198,12 @@ export class Settings {
         return replaced;
     }
 
-    /** Returns the page's own query, with what differs from the defaults: "?species=…&age=…". */
+    /** Returns the page's own query, with what differs from the defaults: "?species=…&age=…". The
+     *  state of the views is that of the `current` one. */
     pageQuery(current: URLSearchParams): string {
         const query = this.query();
         const shot = current.get("shot");
+        const alone = shot ? `&shot=${encodeURIComponent(shot)}` : "";
         const arcs =
             this.morph?.shares.length === 2 && this.morph.arcs.length
                 ? `&arcs=${arcsText(this.morph.arcs)}`
@@ -209,7 +213,8 @@ export class Settings {
             : `${this.product.queryName}=${this.mix}`;
         const rows = this.rows ? `&rows=${rowsText(this.rows)}` : "";
         const parameters = query ? `&${query}` : "";
-        return `?${what}${rows}${parameters}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
+        const views = viewQuery(readView(current));
+        return `?${what}${rows}${parameters}${views}${alone}`;
     }
 
     /** Reads a custom matrix from the page's query; returns what it could not use. */

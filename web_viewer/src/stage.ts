@@ -16,12 +16,24 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
+import { distanceOf } from "./level_ranges";
 import { fittingDistance, pixelsPerMetre, type Directions, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
 import { Wind } from "../clients/three/wind";
-import { boundsOf, disposeModel, modelVariants, modelWind, setWireframe, stemsOf, texturesOf } from "./model";
+import {
+    boundsOf,
+    disposeModel,
+    modelLevels,
+    modelVariants,
+    modelWind,
+    setWireframe,
+    stemsOf,
+    texturesOf,
+} from "./model";
 import { niceStep } from "./schema";
+import { solidsOf } from "./solids";
+import type { WindChannelView } from "./view_state";
 
 /** Speed of the wind in which models sway, m/s. */
 const breezeSpeed = 3;
@@ -118,6 +130,10 @@ export class Stage {
     private wireframe_ = false;
     private readonly wind = new Wind();
     private swaying_ = false;
+    private solidsShown_ = true;
+    private level = 0;
+    /** Size on the screen at which the model is held, pixels; undefined to fill the picture. */
+    private heldPixels: number | undefined;
     private waiters: (() => void)[] = [];
 
     constructor(
@@ -186,9 +202,37 @@ export class Stage {
         this.draw();
     }
 
-    /** Shows weights of wind as colours. */
-    set weightsShown(on: boolean) {
-        this.wind.weightsShown = on;
+    /** Shows weights of wind as colours; undefined for none. */
+    set weightsShown(channel: WindChannelView | undefined) {
+        this.wind.weightsShown = channel ?? false;
+        this.draw();
+    }
+
+    /** Shows the solids for collision, if the model has any. */
+    set solidsShown(shown: boolean) {
+        this.solidsShown_ = shown;
+        this.applySolids();
+        this.draw();
+    }
+
+    /** Adds solids to the shown model, which owns them from now on. */
+    addSolids(solids: Object3D): void {
+        this.model?.add(solids);
+        this.applySolids();
+        this.draw();
+    }
+
+    /** Shows a level of detail of a file that has several, by its index, and holds the longest side
+     *  of the model at a size on the screen, pixels; with undefined the model fills the picture. */
+    showLevel(index: number, pixels: number | undefined): void {
+        this.level = index;
+        const changed = this.heldPixels !== pixels;
+        this.heldPixels = pixels;
+        this.applyLevel();
+        if (this.model && changed) {
+            this.limitZoom();
+            this.fit();
+        }
         this.draw();
     }
 
@@ -222,7 +266,8 @@ export class Stage {
         this.model = model;
         if (this.style.liesOnGround) model.position.y = -boundsOf(model).min.y;
         this.bounds = boundsOf(model);
-        this.applyRootsOnly();
+        this.applyLevel();
+        this.applySolids();
         this.scene.add(model);
         if (old) {
             this.scene.remove(old);
@@ -258,6 +303,17 @@ export class Stage {
             : this.camera.position.clone().sub(this.controls.target).normalize();
         if (direction.lengthSq() === 0) direction.copy(this.style.directions["three-quarter"]);
         const centre = this.framed.getCenter(new Vector3());
+        if (this.heldPixels !== undefined) {
+            const side = this.bounds.getSize(new Vector3());
+            const coverage = this.heldPixels / (this.host.clientHeight || 1);
+            const distance = distanceOf(
+                Math.max(side.x, side.y, side.z),
+                coverage,
+                this.camera.fov,
+            );
+            const position = direction.multiplyScalar(distance).add(centre);
+            return this.moveTo(centre, position, atOnce || this.style.reducedMotion);
+        }
         const margin = this.style.withoutMargins
             ? { x: 0.06, y: 0.06 }
             : this.host.clientWidth < 520
@@ -271,12 +327,32 @@ export class Stage {
         );
     }
 
+    /** Shows one of the levels of detail of the model, if it has several. */
+    private applyLevel(): void {
+        const levels = this.model ? modelLevels(this.model) : [];
+        const shown = Math.min(this.level, levels.length - 1);
+        levels.forEach((node, index) => (node.visible = index === shown));
+        this.applyRootsOnly();
+    }
+
+    private applySolids(): void {
+        if (!this.model) return;
+        for (const solid of solidsOf(this.model)) solid.visible = this.solidsShown_;
+    }
+
     /** Hides the individuals of a colony above their roots and stems, or shows them again. */
     private applyRootsOnly(): void {
         const stems = this.model && stemsOf(this.model);
         this.framed = this.rootsOnly && stems ? boundsOf(stems) : this.bounds;
-        for (const node of this.model?.children ?? [])
-            node.visible = !this.rootsOnly || !stems || node === stems;
+        for (const node of stems?.parent?.children ?? [])
+            if (node.userData["collision"] === undefined)
+                node.visible = !this.rootsOnly || node === stems;
+    }
+
+    private limitZoom(): void {
+        const { radius } = this.bounds.getBoundingSphere(new Sphere());
+        this.controls.minDistance = radius * 0.4;
+        this.controls.maxDistance = this.heldPixels === undefined ? radius * 24 : Infinity;
     }
 
     /** Requests a frame; several requests at once make one frame. */
@@ -326,8 +402,7 @@ export class Stage {
         this.contact.visible = true;
         this.contact.position.y = ball.radius * 0.0015;
         this.castContact();
-        this.controls.minDistance = ball.radius * 0.4;
-        this.controls.maxDistance = ball.radius * 24;
+        this.limitZoom();
     }
 
     private castContact(): void {
@@ -339,6 +414,7 @@ export class Stage {
     }
 
     private outOfPicture(): boolean {
+        if (this.heldPixels !== undefined) return true;
         const ball = this.framed.getBoundingSphere(new Sphere());
         const seen = ball.radius / (this.camera.position.distanceTo(ball.center) || 1);
         const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);

@@ -19,6 +19,8 @@ interface TestHandle {
         textures: number;
     };
     readonly counts: Counts;
+    /** Triangles of the level of detail that is shown, and pixels of its longest side. */
+    readonly shown: { triangles: number; pixels: number };
     /** The age that an animation clip shows, undefined if it shows none, and whether it plays. */
     readonly growth: { age: number | undefined; playing: boolean };
     readonly made: ColonyCount | undefined;
@@ -47,6 +49,11 @@ export function installTestHandle(page: Page, stage: Stage): void {
         },
         get counts() {
             return page.counts;
+        },
+        get shown() {
+            const { width, height, depth } = stage.size;
+            const pixels = Math.max(width, height, depth) * stage.pixelsPerMetre;
+            return { triangles: page.counts.triangles, pixels };
         },
         get growth() {
             return page.growth;

@@ -57,7 +57,6 @@ export class Toolbar {
         this.makeLods();
         makeToggle("wireframe", (on) => (stage.wireframe = on));
         makeToggle("breeze", (on) => (stage.swaying = on));
-        makeToggle("wind-weights", (on) => (stage.weightsShown = on));
         makeToggle("night", (on) => setDusk(stage, on));
         setDusk(stage, false);
         const select = byId<HTMLSelectElement>("variant");
@@ -80,9 +79,9 @@ export class Toolbar {
         );
     }
 
-    /** Shows the buttons of wind if the model has its weights. */
+    /** Shows the button of wind if the model has its weights. */
     offerWind(offered: boolean): void {
-        for (const id of ["breeze", "wind-weights"]) byId(id).hidden = !offered;
+        byId("breeze").hidden = !offered;
     }
 
     /** Marks the level of detail of the settings; without one, that of the values that the server

@@ -48,8 +48,8 @@ function weightsOf({ channels }: WindExtras): { declarations: string; values: st
         declared.set(name, `attribute ${type} ${name};`);
         return `${name}.${component}`;
     };
-    const { bend, flutter, phase } = channels;
-    const values = `vec3(${[bend, flutter, phase].map(read).join(", ")})`;
+    const { bend, flutter, phase, branch } = channels;
+    const values = `vec4(${[bend, flutter, phase, branch].map(read).join(", ")})`;
     return { declarations: [...declared.values()].join("\n"), values };
 }
 
@@ -64,7 +64,7 @@ uniform vec2 windVelocity;
 uniform float windSway;
 uniform float windFlutter;
 uniform float windRate;
-varying vec3 vWind;
+varying vec4 vWind;
 
 // Returns the displacement of a vertex in the world, metres. It is a function of its place and its
 // weights, so that vertices of several meshes at one place stay together.
@@ -96,9 +96,27 @@ vec4 windPlace = vec4(transformed, 1.0);
 #endif
 windPlace = modelMatrix * windPlace;
 vWind = ${values};
-windPlace.xyz += windOffset(windPlace.xyz, vWind);
+windPlace.xyz += windOffset(windPlace.xyz, vWind.xyz);
 vec4 mvPosition = viewMatrix * windPlace;
 gl_Position = projectionMatrix * mvPosition;
+`;
+
+/** What weightsShown shows, by the number that the shader has for it. */
+const views = ["all", "bend", "flutter", "phase", "branch"] as const;
+
+/** Colours of weights: bend and flutter as brightness, phase as a hue, so that it is periodic, and
+ *  branch as one of many hues, so that neighbouring numbers differ. */
+const colours = /* glsl */ `
+vec3 windHue(float turn) {
+    return 0.5 + 0.5 * cos(6.2831853 * (turn - vec3(0.0, 0.333, 0.667)));
+}
+vec3 windColour() {
+    if (windShown == 1) return vWind.rgb;
+    if (windShown == 2) return vec3(vWind.x);
+    if (windShown == 3) return vec3(vWind.y);
+    if (windShown == 4) return windHue(vWind.z);
+    return windHue(0.618 * floor(255.0 * vWind.w + 0.5));
+}
 `;
 
 /** The wind of a scene. Attach it to what was loaded, and update it before every frame. */
@@ -141,9 +159,11 @@ export class Wind {
         this.time.value = seconds;
     }
 
-    /** Shows the weights as colours: bend red, flutter green, phase blue. */
-    set weightsShown(on: boolean) {
-        this.shown.value = on ? 1 : 0;
+    /** Shows weights as colours: one of them, or with true and "all" bend red, flutter green and
+     *  phase blue. */
+    set weightsShown(shown: boolean | (typeof views)[number]) {
+        const view = shown === true ? "all" : shown;
+        this.shown.value = view === false ? 0 : views.indexOf(view) + 1;
     }
 
     private patch(material: Material, extras: WindExtras, lit: boolean): void {
@@ -165,12 +185,12 @@ export class Wind {
                 project(values),
             );
             if (!lit) return;
-            const colours = "gl_FragColor = mix(gl_FragColor, vec4(vWind, 1.0), windShown);";
-            shader.fragmentShader =
-                `uniform float windShown;\nvarying vec3 vWind;\n${shader.fragmentShader}`.replace(
-                    "#include <dithering_fragment>",
-                    `#include <dithering_fragment>\n${colours}`,
-                );
+            const declared = `uniform int windShown;\nvarying vec4 vWind;\n${colours}`;
+            const shown = "if (windShown > 0) gl_FragColor = vec4(windColour(), 1.0);";
+            shader.fragmentShader = `${declared}\n${shader.fragmentShader}`.replace(
+                "#include <dithering_fragment>",
+                `#include <dithering_fragment>\n${shown}`,
+            );
         };
         material.needsUpdate = true;
     }
