@@ -2,71 +2,16 @@
 // of the pixels that either covers. Bundled and run by clients.test.mjs.
 //
 //   ?server=...&first=mushrooms/x.glb&second=mushrooms/x.glb%3Fcompress=meshopt
-import {
-    AmbientLight,
-    Box3,
-    DirectionalLight,
-    PerspectiveCamera,
-    Scene,
-    Sphere,
-    WebGLRenderer,
-} from "three";
 import { Sporeprint } from "../../web_viewer/clients/three/index.ts";
-
-const side = 320;
-
-/** Returns the pixels of a file, seen from the front, as RGBA. */
-async function picture(renderer, sporeprint, path) {
-    const { scene: model } = await sporeprint.load(path);
-    const scene = new Scene();
-    const sun = new DirectionalLight(0xffffff, 2);
-    sun.position.set(-1, 2, 1.5);
-    scene.add(model, sun, new AmbientLight(0xffffff, 1));
-    const ball = new Box3().setFromObject(model, true).getBoundingSphere(new Sphere());
-    const camera = new PerspectiveCamera(30, 1, ball.radius / 10, ball.radius * 20);
-    camera.position.copy(ball.center);
-    camera.position.z += ball.radius * 4;
-    camera.position.y += ball.radius * 0.5;
-    camera.lookAt(ball.center);
-    renderer.render(scene, camera);
-    const gl = renderer.getContext();
-    const pixels = new Uint8Array(4 * side * side);
-    gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    return pixels;
-}
-
-/** Returns CIE L*a*b* (D65) of an sRGB colour. */
-function lab(pixels, at) {
-    const linear = [0, 1, 2].map((k) => {
-        const c = pixels[at + k] / 255;
-        return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
-    });
-    const [r, g, b] = linear;
-    const xyz = [
-        (0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505,
-        0.2126 * r + 0.7152 * g + 0.0722 * b,
-        (0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089,
-    ].map((v) => (v > 0.008856 ? Math.cbrt(v) : 7.787 * v + 16 / 116));
-    return [116 * xyz[1] - 16, 500 * (xyz[0] - xyz[1]), 200 * (xyz[1] - xyz[2])];
-}
+import { differenceOf, picture, pictureRenderer } from "./compare.mjs";
 
 async function difference() {
     const query = new URLSearchParams(location.search);
-    const canvas = document.querySelector("canvas");
-    const renderer = new WebGLRenderer({ canvas, alpha: true, preserveDrawingBuffer: true });
-    renderer.setSize(side, side, false);
+    const renderer = pictureRenderer();
     const sporeprint = new Sporeprint(query.get("server"));
-    const first = await picture(renderer, sporeprint, query.get("first"));
-    const second = await picture(renderer, sporeprint, query.get("second"));
-    let sum = 0;
-    let covered = 0;
-    for (let at = 0; at < first.length; at += 4) {
-        if (first[at + 3] === 0 && second[at + 3] === 0) continue;
-        const [a, b] = [lab(first, at), lab(second, at)];
-        sum += Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-        ++covered;
-    }
-    return { mean: sum / covered, covered: covered / (side * side) };
+    const { scene: first } = await sporeprint.load(query.get("first"));
+    const { scene: second } = await sporeprint.load(query.get("second"));
+    return differenceOf(picture(renderer, first), picture(renderer, second));
 }
 
 difference().then(
