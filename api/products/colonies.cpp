@@ -12,6 +12,7 @@
 #include "api/products/surfaces.h"
 #include "core/grow/colony.h"
 #include "core/grow/names.h"
+#include "core/grow/variants.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
@@ -86,8 +87,10 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    return cost + cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
-                                 estimated.texels / atlases);
+    for (int set = 0; set < image_sets(spec.params.variants); ++set)
+        cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
+                               estimated.texels / atlases);
+    return cost;
 }
 
 bool shows_roots(const ColonySpec& spec, const Atlas& atlas) {
@@ -119,7 +122,8 @@ Estimate guessed(const ColonySpec& spec) {
                           (2 * std::min(lod, 2));
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    guess.bytes = 60 * guess.vertices + images / 3;
+    guess.bytes =
+        60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
     return guess;
 }
 
@@ -166,10 +170,14 @@ std::uint64_t Colonies::instances_of_each(const ColonySpec& spec) {
 
 ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec, const std::string&,
                                const ExecutionContext& execution) {
+    return variant_urls(context, spec, paint_mushroom_spec(spec), execution);
+}
+
+ImageUrls Colonies::variant_urls(const Context& context, const ColonySpec& spec,
+                                 const MushroomSpec& painted, const ExecutionContext& execution) {
     // Its images are those of a mushroom, of higher resolution than its level of detail alone would
     // have.
-    const MushroomSpec surface =
-        surface_spec(paint_mushroom_spec(spec), *context.atlas, execution.caches);
+    const MushroomSpec surface = surface_spec(painted, *context.atlas, execution.caches);
     SurfaceAddress image = surface_address(surface);
     image.texture_size = {spec.params.texture_size >> spec.params.lod};
     return mushroom_image_urls("colonies", surface, image, *context.atlas);

@@ -53,6 +53,11 @@ struct Colonies {
     static std::uint64_t instances_of_each(const ColonySpec& spec);
     static ImageUrls image_urls(const Context& context, const ColonySpec& spec,
                                 const std::string& version, const ExecutionContext& execution);
+    /// Returns those of a variant.
+    ///
+    /// painted  the mushroom whose images it has
+    static ImageUrls variant_urls(const Context& context, const ColonySpec& spec,
+                                  const MushroomSpec& painted, const ExecutionContext& execution);
     static Body grow(const Context& context, const ColonySpec& spec, Resolved& resolved,
                      const Extras& extras, int depth, const ExecutionContext& execution);
     static Value describe(const Context& context, const ColonySpec& spec, Resolved& resolved,

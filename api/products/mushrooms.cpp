@@ -147,7 +147,7 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(spec));
-    for (int set = 0; set < image_sets(spec.params); ++set)
+    for (int set = 0; set < image_sets(spec.params.variants); ++set)
         cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
                                estimated.texels / atlases);
     if (spec.model)
@@ -167,7 +167,8 @@ Estimate guessed(const MushroomSpec& spec) {
         guess.vertices += std::uint64_t{12'000} >> (2 * lod);
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
-    guess.bytes = 60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params)) * images / 3;
+    guess.bytes =
+        60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
     const std::uint64_t frames = frames_of(spec);
     guess.bytes += guess.vertices * 24 * frames;
     guess.vertices += guess.vertices * frames;

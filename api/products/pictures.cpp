@@ -16,7 +16,7 @@ namespace {
 template <class Visit>
 void each_file_parameter(Visit visit) {
     FileOptions::fields([&](auto, const Info& info) { visit(std::string_view(info.name)); });
-    for (const std::string_view name : {"animation", "frames", "targets", "instancing"})
+    for (const std::string_view name : {"animation", "frames", "targets", "instancing", "variants"})
         visit(name);
 }
 

@@ -27,6 +27,8 @@ namespace sporeprint::api {
 ///   search(spec, atlas)                    optional: cost of its correspondence (MorphSet)
 ///   guess(spec, product, atlas)            optional: approximate cost without the correspondence
 ///   image_urls(context, spec, version, execution)   URLs of its images with their versions
+///   variant_urls(context, spec, painted, execution)   optional: those of a variant, unless the
+///                                          specification is that of a mushroom
 ///   grow(context, spec, resolved, extras, depth, execution)   the GLB; depth of links to further
 ///                                          images
 ///   describe(context, spec, resolved, version, execution)     the JSON
@@ -73,6 +75,13 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
                 extras.variant_urls = [&](const MushroomSpec& variant) {
                     return references_from(
                         depth, Kind::image_urls(context, variant, version, job.execution()));
+                };
+            if constexpr (requires {
+                              Kind::variant_urls(context, *spec, MushroomSpec(), job.execution());
+                          })
+                extras.variant_urls = [&](const MushroomSpec& painted) {
+                    return references_from(
+                        depth, Kind::variant_urls(context, *spec, painted, job.execution()));
                 };
         }
         return Kind::grow(context, *spec, *resolved, extras, depth, job.execution());

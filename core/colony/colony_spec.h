@@ -74,6 +74,7 @@ struct ColonyParams {
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     ImageShare share = ImageShare::individual;
+    Variants variants = Variants::none;
     FileOptions file;
     Instancing instancing = Instancing::nodes;
 
@@ -126,6 +127,7 @@ struct ColonyParams {
         visit(&P::texture_size, info_of<M>("texture_size"));
         visit(&P::textures, info_of<M>("textures"));
         visit(&P::share, share_info);
+        visit(&P::variants, variants_info);
         visit(&P::file, file_info);
         visit(&P::instancing,
               Info{.name = "instancing",

@@ -12,6 +12,7 @@
 #include "core/colony/colony_skin.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
+#include "core/grow/variants.h"
 #include "core/individual/proportion.h"
 #include "core/math/direction.h"
 #include "core/math/purposes.h"
@@ -117,7 +118,8 @@ void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std:
 void add_images(Estimate& e, const ColonySpec& spec) {
     const std::uint64_t texels = image_texels(spec);
     e.texels = texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    add_image_bytes(e, texels / 3, spec.params.textures, spec.params.file);
+    add_image_bytes(e, static_cast<std::uint64_t>(image_sets(spec.params.variants)) * texels / 3,
+                    spec.params.textures, spec.params.file);
 }
 
 void add_solids(Estimate& e, const ColonySpec& spec) {
@@ -371,14 +373,14 @@ void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin,
                 std::span<const Mesh> models, const std::string& name) {
     if (!skin.positions.empty()) {
         scene.nodes.push_back({.name = name + "_stems", .mesh = scene.meshes.size()});
-        scene.meshes.push_back({name + "_stems", {{&skin, 0, {}}}});
+        scene.meshes.push_back({name + "_stems", {{&skin, 0, {}, variant_materials(scene)}}});
     }
     std::vector<std::size_t> mesh_of(models.size(), 0);
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (models[i].positions.empty()) continue;
         mesh_of[i] = scene.meshes.size();
-        scene.meshes.push_back(
-            {name + "_individual" + std::to_string(i + 1), {{&models[i], 0, {}}}});
+        scene.meshes.push_back({name + "_individual" + std::to_string(i + 1),
+                                {{&models[i], 0, {}, variant_materials(scene)}}});
     }
     add_member_nodes(scene, colony, mesh_of);
 }
@@ -448,6 +450,7 @@ Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
     refuse_impossible(params.file, params.textures);
+    refuse_impossible_variants(params.variants, params.textures, params.file);
     const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
@@ -577,11 +580,13 @@ MushroomSpec paint_mushroom_spec(const ColonySpec& spec) {
     own.params.lod = cap_lod(spec.params.lod);
     own.params.texture_size = spec.params.texture_size;
     own.params.textures = spec.params.textures;
+    own.params.variants = spec.params.variants;
     return own;
 }
 
-PaintSpec paint_spec_of(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
-    PaintSpec paint_spec = paint_spec_of(paint_mushroom_spec(spec), atlas, caches);
+PaintSpec paint_spec_of(const ColonySpec& spec, const MushroomSpec& painted, const Atlas& atlas,
+                        const Caches& caches) {
+    PaintSpec paint_spec = paint_spec_of(painted, atlas, caches);
     // The resolution is that of the colony's level of detail, the painted detail that of its caps'.
     for (PaintShare& share : paint_spec)
         share.painting.side = spec.params.texture_size >> spec.params.lod;
@@ -599,17 +604,25 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
                   const Extras& extras, const ExecutionContext& execution) {
     const ColonyParams& params = spec.params;
     refuse_impossible(params.file, params.textures);
+    refuse_impossible_variants(params.variants, params.textures, params.file);
     Colony colony = colony_parts(spec, typical, atlas, execution);
     const Bounds box = bounds(colony);
     GlbScene scene;
     set_options(scene, params.file);
     scene.materials.push_back({.name = skin_name(spec), .look = look_of(typical.model)});
     scene.stands_on_ground = !colony_traits(spec, atlas).lateral;
-    const EmbeddedImages images = attach_images(
-        scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
-        [&](ImageFormat format) {
-            return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
-        });
+    const MushroomSpec painted = paint_mushroom_spec(spec);
+    const auto painting_of = [&](const MushroomSpec& one) {
+        return paint_spec_of(spec, one, atlas, execution.caches);
+    };
+    const EmbeddedImages images =
+        attach_images(scene.materials.front(), params.textures, params.file, extras.image_urls,
+                      execution, [&](ImageFormat format) {
+                          return painted_images(painting_of(painted), execution, format);
+                      });
+    const std::vector<EmbeddedImages> variant_images =
+        add_variants(scene, variants_of(painted, typical), params.textures, params.file, extras,
+                     execution, painting_of);
     execution.observer(Step::pack);
     std::vector<Level> levels{{params.lod}};
     if (params.file.lods != Lods::single) {

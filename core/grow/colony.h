@@ -71,12 +71,15 @@ struct Colony {
 [[nodiscard]] std::vector<Level> levels_of(const ColonySpec& spec, const Individual& typical,
                                            const Atlas& atlas, const Bounds& box);
 
-/// Returns the spec of the mushroom whose images all members of a colony use.
+/// Returns the spec of the mushroom whose images all members of a colony use, with the variants of
+/// the colony.
 [[nodiscard]] MushroomSpec paint_mushroom_spec(const ColonySpec& spec);
 
-/// Returns everything that painting these images depends on.
-[[nodiscard]] PaintSpec paint_spec_of(const ColonySpec& spec, const Atlas& atlas,
-                                      const Caches& caches = {});
+/// Returns everything that painting these images depends on, or those of a variant.
+///
+/// painted  paint_mushroom_spec() of the colony, or that of one of its variants
+[[nodiscard]] PaintSpec paint_spec_of(const ColonySpec& spec, const MushroomSpec& painted,
+                                      const Atlas& atlas, const Caches& caches = {});
 
 /// Builds a colony: one skin, a few caps, and a node per individual, or an instanced node per cap.
 /// Of several levels of detail each is one node whose children these are.

@@ -67,7 +67,7 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const MushroomParams& params = spec.params;
     const bool grows = params.animation != Animation::none;
     refuse_impossible(params.file, params.textures);
-    refuse_impossible_variants(params);
+    refuse_impossible_variants(params.variants, params.textures, params.file);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         const MeshCount mesh = body_count(individual, lod, grows);
@@ -77,8 +77,8 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    add_image_bytes(e, static_cast<std::uint64_t>(image_sets(params)) * images / 3, params.textures,
-                    params.file);
+    add_image_bytes(e, static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3,
+                    params.textures, params.file);
     add_solid_bytes(e, 1, 0, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
@@ -139,43 +139,6 @@ std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individ
     return levels;
 }
 
-namespace {
-
-/// Adds the materials of all variants; returns their images.
-std::vector<EmbeddedImages> add_variants(GlbScene& scene, const MushroomSpec& spec,
-                                         const Individual& individual, const Atlas& atlas,
-                                         const Extras& extras, const ExecutionContext& execution) {
-    std::vector<EmbeddedImages> images;
-    for (Variant& variant : variants_of(spec, individual)) {
-        GlbMaterial material = scene.materials.front();
-        material.name += '_' + variant.name;
-        material.look = variant.look;
-        if (variant.has_own_images) {
-            const MushroomSpec& painted = variant.painted;
-            const bool linked = has_addresses(spec.params.textures) && extras.variant_urls;
-            images.push_back(attach_images(material, spec.params.textures, spec.params.file,
-                                           linked ? extras.variant_urls(painted) : ImageUrls{},
-                                           execution, [&](ImageFormat format) {
-                                               return painted_images(
-                                                   paint_spec_of(painted, atlas, execution.caches),
-                                                   execution, format);
-                                           }));
-        }
-        scene.variants.push_back(std::move(variant.name));
-        scene.materials.push_back(std::move(material));
-    }
-    return images;
-}
-
-/// Returns the materials of add_variants(), which follow the first.
-std::vector<std::size_t> variant_materials(const GlbScene& scene) {
-    std::vector<std::size_t> materials;
-    for (std::size_t i = 0; i < scene.variants.size(); ++i) materials.push_back(i + 1);
-    return materials;
-}
-
-}  // namespace
-
 Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extras& extras,
                        const ExecutionContext& execution) {
     execution.observer(Step::resolve);
@@ -188,7 +151,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     execution.observer(Step::build);
     const MushroomParams& params = spec.params;
     refuse_impossible(params.file, params.textures);
-    refuse_impossible_variants(params);
+    refuse_impossible_variants(params.variants, params.textures, params.file);
     std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
     Wind wind{params.file.wind};
     if (wind.format != WindFormat::none) {
@@ -220,7 +183,10 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
             return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
         });
     const std::vector<EmbeddedImages> variant_images =
-        add_variants(scene, spec, individual, atlas, extras, execution);
+        add_variants(scene, variants_of(spec, individual), params.textures, params.file, extras,
+                     execution, [&](const MushroomSpec& painted) {
+                         return paint_spec_of(painted, atlas, execution.caches);
+                     });
     execution.observer(Step::pack);
     Mushroom grown;
     std::vector<std::vector<GlbPrimitive>> primitives;

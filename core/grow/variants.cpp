@@ -17,13 +17,13 @@ constexpr glm::dvec3 rime(0.8, 0.87, 0.95);
 
 }  // namespace
 
-void refuse_impossible_variants(const MushroomParams& params) {
-    if (params.variants == Variants::none) return;
-    const std::string value = std::string("'") + name(params.variants) + "' ";
-    if (params.textures == Textures::none)
+void refuse_impossible_variants(Variants variants, Textures textures, const FileOptions& file) {
+    if (variants == Variants::none) return;
+    const std::string value = std::string("'") + name(variants) + "' ";
+    if (textures == Textures::none)
         throw Impossible("/variants",
                          value + "needs images; ask for textures other than none, or for none");
-    if (params.file.materials == MaterialSet::core)
+    if (file.materials == MaterialSet::core)
         throw Impossible(
             "/variants",
             value + "is an extension of materials; ask for materials=full, or for none");
@@ -62,6 +62,36 @@ std::vector<Variant> variants_of(const MushroomSpec& spec, const Individual& ind
     return variants;
 }
 
-int image_sets(const MushroomParams& params) { return params.variants == Variants::none ? 1 : 4; }
+int image_sets(Variants variants) { return variants == Variants::none ? 1 : 4; }
+
+std::vector<EmbeddedImages> add_variants(
+    GlbScene& scene, const std::vector<Variant>& variants, Textures textures,
+    const FileOptions& file, const Extras& extras, const ExecutionContext& execution,
+    const std::function<PaintSpec(const MushroomSpec&)>& paint_spec_of) {
+    std::vector<EmbeddedImages> images;
+    for (const Variant& variant : variants) {
+        GlbMaterial material = scene.materials.front();
+        material.name += '_' + variant.name;
+        material.look = variant.look;
+        if (variant.has_own_images) {
+            const bool linked = has_addresses(textures) && extras.variant_urls;
+            images.push_back(attach_images(
+                material, textures, file,
+                linked ? extras.variant_urls(variant.painted) : ImageUrls{}, execution,
+                [&](ImageFormat format) {
+                    return painted_images(paint_spec_of(variant.painted), execution, format);
+                }));
+        }
+        scene.variants.push_back(variant.name);
+        scene.materials.push_back(std::move(material));
+    }
+    return images;
+}
+
+std::vector<std::size_t> variant_materials(const GlbScene& scene) {
+    std::vector<std::size_t> materials;
+    for (std::size_t i = 0; i < scene.variants.size(); ++i) materials.push_back(i + 1);
+    return materials;
+}
 
 }  // namespace sporeprint

@@ -177,7 +177,7 @@ async function requestFactors(server) {
                 lods,
                 ["count=9&distinct=3", "count=3&distinct=1&share=species"],
                 ["seed=7", "seed=8"],
-                images,
+                variants,
                 ["", "", "instancing=gpu"],
                 solid,
                 levels,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 
 #include "tests/api/support.h"
@@ -84,6 +85,16 @@ TEST_F(ColoniesTest, OfABodyAreThoseOfTheAddress) {
 }
 
 TEST_F(ColoniesTest, LinkImagesThatAreThoseTheyWouldEmbed) {
+    // Variants link to images of their own, and frosted to those of the requested material.
+    const std::vector<std::string> of_variants =
+        linked_images(ask(small("&textures=linked&variants=weather")), small());
+    ASSERT_EQ(of_variants.size(), 12U);
+    std::set<std::string> different;
+    for (const std::string& one : of_variants) {
+        EXPECT_EQ(ask(one).status, 200) << one;
+        different.insert(text_of(ask(one)));
+    }
+    EXPECT_GE(different.size(), 8U) << "colours and roughness of each of four materials";
     const std::vector<std::string> linked = linked_images(ask(small("&textures=linked")), small());
     ASSERT_EQ(linked.size(), 3U);
     const std::string& address = linked[0];

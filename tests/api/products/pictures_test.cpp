@@ -85,14 +85,16 @@ TEST_F(PicturesTest, ListsLinkToThem) {
 }
 
 TEST_F(PicturesTest, OptionsOfFilesAreRefusedByName) {
-    for (const char* of_file : {"profile=web", "compress=meshopt", "image_format=webp", "lods=msft",
-                                "materials=core", "animation=growth", "frames=3"}) {
+    for (const char* of_file :
+         {"profile=web", "compress=meshopt", "image_format=webp", "lods=msft", "materials=core",
+          "variants=weather", "animation=growth", "frames=3"}) {
         const Response response = ask(agaric + '?' + of_file);
         const std::string name = std::string(of_file).substr(0, std::string(of_file).find('='));
         expect_problem(response, 400);
         EXPECT_TRUE(names(response, name, "changes no picture")) << text_of(response);
     }
     expect_problem(ask("/v1/colonies/hypholoma_fasciculare.png?instancing=gpu"), 400);
+    expect_problem(ask("/v1/colonies/hypholoma_fasciculare.png?variants=weather"), 400);
     expect_problem(ask(agaric + "?textures=linked"), 422);
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/grow/variants.h"
 #include "core/params/corners.h"
 #include "core/params/query.h"
 #include "tests/support/effort.h"
@@ -356,6 +357,75 @@ TEST(ColonyFile, AllMembersUseTheImagesOfOneMushroom) {
                   (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
     spec.params.textures = Textures::linked;
     EXPECT_TRUE(names(refusal([&] { (void)grown(spec); }), "/textures"));
+}
+
+TEST(ColonyFile, AllOfItsMeshesHaveTheVariantsOfItsMaterial) {
+    for (const Instancing instancing : {Instancing::nodes, Instancing::gpu}) {
+        ColonySpec spec = colony_of("hypholoma_fasciculare", 6, 2);
+        spec.params.lod = 2;
+        spec.params.textures = Textures::embedded;
+        spec.params.texture_size.value = 256;
+        spec.params.instancing = instancing;
+        const Bytes plain = joined(grown(spec).glb);
+        spec.params.variants = Variants::weather;
+        const Bytes file = joined(grown(spec).glb);
+        const Value json = json_chunk(file);
+        std::vector<std::string> names;
+        for (const Value& variant :
+             json.at_pointer("/extensions/KHR_materials_variants/variants")->items())
+            names.push_back(variant.find("name")->as_string());
+        EXPECT_EQ(names, (std::vector<std::string>{"dry", "wet", "aged", "frosted"}));
+        const auto& materials = json.find("materials")->items();
+        ASSERT_EQ(materials.size(), 5U);
+        EXPECT_EQ(json.find("images")->items().size(), 12U);
+        EXPECT_EQ(*json.find("materials")->items()[0].find("name"),
+                  *json_chunk(plain).find("materials")->items()[0].find("name"))
+            << "the requested material is that of a colony without variants";
+        for (const Value& mesh : json.find("meshes")->items())
+            for (const Value& primitive : mesh.find("primitives")->items()) {
+                EXPECT_EQ(primitive.find("material")->as_number(), 0.0);
+                const Value* const mappings =
+                    primitive.at_pointer("/extensions/KHR_materials_variants/mappings");
+                ASSERT_NE(mappings, nullptr) << "stems too";
+                EXPECT_EQ(mappings->items().size(), 4U);
+            }
+        const auto coat = [&](std::size_t material) {
+            const Value* const found = materials[material].at_pointer(
+                "/extensions/KHR_materials_clearcoat/clearcoatFactor");
+            return found ? found->as_number() : 0.0;
+        };
+        EXPECT_GT(coat(2), coat(1)) << "wet over dry";
+        EXPECT_NE(materials[4].at_pointer("/extensions/KHR_materials_sheen"), nullptr) << "rime";
+        const double estimated = static_cast<double>(estimate(spec, typical(spec), atlas()).bytes);
+        EXPECT_NEAR(estimated / static_cast<double>(file.size()), 1.0, 0.5);
+    }
+}
+
+TEST(ColonyFile, VariantsPaintTheSameMushroomAfterOtherWeather) {
+    ColonySpec spec = colony_of("hypholoma_fasciculare", 6, 2);
+    spec.params.textures = Textures::embedded;
+    spec.params.variants = Variants::weather;
+    const MushroomSpec painted = paint_mushroom_spec(spec);
+    const PaintParams requested = paint_spec_of(spec, painted, atlas()).at(0).painting;
+    for (const Variant& variant : variants_of(painted, typical(spec))) {
+        PaintParams own = paint_spec_of(spec, variant.painted, atlas()).at(0).painting;
+        EXPECT_EQ(own.weathering == requested.weathering, !variant.has_own_images) << variant.name;
+        own.weathering = requested.weathering;
+        EXPECT_EQ(own, requested) << variant.name << ": nothing else is painted differently";
+    }
+}
+
+TEST(ColonyFile, VariantsNeedImagesAndExtensions) {
+    ColonySpec spec = colony_of("hypholoma_fasciculare", 6, 2);
+    spec.params.variants = Variants::weather;
+    const auto refused = [&] {
+        return refusal([&] { (void)estimate(spec, typical(spec), atlas()); });
+    };
+    EXPECT_TRUE(names(refused(), "/variants", "textures"));
+    EXPECT_TRUE(names(refusal([&] { (void)grown(spec); }), "/variants", "textures"));
+    spec.params.textures = Textures::embedded;
+    spec.params.file.materials = MaterialSet::core;
+    EXPECT_TRUE(names(refused(), "/variants", "materials"));
 }
 
 TEST(ColonyFile, IsDeterministicAndDependsOnTheSeed) {
