@@ -211,6 +211,20 @@ Body archive(const Context& context, const SetSpec& spec, const SetPlan& plan,
     return zip_archive(files);
 }
 
+/// Returns the cost of copying images into atlases and of encoding free tiles, beside that of the
+/// images.
+Cost cost_of_atlases(const SetSpec& spec) {
+    const std::size_t tiles = tiles_of_atlas(spec);
+    if (tiles == 0 || tiles > most_tiles) return {};  // refused later
+    const auto side =
+        static_cast<std::uint64_t>(spec.mushroom.texture_size.value >> spec.params.levels.front());
+    const std::uint64_t texels = atlases_of(spec) * grid_of(tiles).size() * 3 * side * side;
+    Cost cost{.pixels = texels};
+    if (spec.mushroom.file.image_format != ImageFormats::jpg)
+        cost.webp_texels = texels - texels / grid_of(tiles).size() * tiles;
+    return cost;
+}
+
 /// Returns the approximate cost of a set, from its counts alone.
 ///
 /// is_made  its files are generated, not only listed
@@ -234,6 +248,7 @@ Cost guessed_cost(const SetSpec& spec, bool is_made, const Atlas& atlas) {
             }
         }
     }
+    if (is_made) cost += cost_of_atlases(spec);
     return cost;
 }
 
@@ -295,7 +310,10 @@ Plan plan_set(RouteCall& call) {
     resource.requested_version = std::move(requested.version);
     resource.estimate_cost = [&context, spec](const Caches&) {
         const Cost cost = guessed_cost(*spec, is_made, *context.atlas);
-        if (Made == Output::file) refuse_in_one_file(*spec);
+        if (Made == Output::file)
+            refuse_in_one_file(*spec);
+        else
+            refuse_impossible_atlas(*spec);
         if (Made == Output::archive && has_addresses(spec->mushroom.textures))
             throw Impossible("/textures",
                              "links of files in an archive lead nowhere; ask for embedded or none");

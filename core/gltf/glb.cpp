@@ -317,15 +317,11 @@ NodeData node_data(const GlbScene& scene, const std::vector<float>& steps, Table
 
 /// Appends the image files of all textures, padded.
 void append_images(const TextureTables& texture_tables, Body& body) {
-    for (const GlbMaterial* material : texture_tables.sources)
-        for (const ImageSet* set : {material->images, material->fallback}) {
-            if (!set) continue;
-            for (const Slice& file : set->files) {
-                body.push_back(file);
-                if (const std::size_t pad = padded(file.size) - file.size)
-                    body.push_back(Slice(zeros(), 0, pad));
-            }
-        }
+    for (const Slice& file : texture_tables.image_files) {
+        body.push_back(file);
+        if (const std::size_t pad = padded(file.size) - file.size)
+            body.push_back(Slice(zeros(), 0, pad));
+    }
 }
 
 }  // namespace

@@ -37,6 +37,13 @@ struct MaterialLook {
     glm::dvec3 glow{0.0};   ///< emission, linear, 0..1; scaled by KHR_materials_emissive_strength
 };
 
+/// What differs between the tiles of an atlas in the look of its material: PNG images with a texel
+/// for each tile, sampled without interpolation; empty where all tiles are alike.
+struct TileLooks {
+    Slice coat;   ///< factor of the coat in red
+    Slice sheen;  ///< factors of the sheen, sRGB
+};
+
 /// A material with its images.
 struct GlbMaterial {
     std::string name;                  ///< also of its images, with their kinds: "oak_base_color"
@@ -49,6 +56,7 @@ struct GlbMaterial {
     /// JPEG images for loaders without EXT_texture_webp, which WebP images otherwise require.
     const ImageSet* fallback = nullptr;
     std::array<std::string, 3> fallback_urls = {};
+    TileLooks tile_looks = {};  ///< of a material with embedded images
 };
 
 /// A part of a mesh with one material: one draw call.

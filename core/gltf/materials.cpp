@@ -19,8 +19,7 @@ std::size_t TextureTables::add_images(const std::string& name, const ImageSet* f
         append_quoted((images += separator(images)) += "{\"name\":",
                       name + '_' + sporeprint::name(static_cast<ImageKind>(i)));
         if (files) {
-            ((images += ",\"mimeType\":\"") += media_type(files->format)) += "\",\"bufferView\":";
-            append(images, tables.view(files->files[i].size));
+            add_file(files->files[i], media_type(files->format), tables);
         } else {
             append_quoted(images += ",\"uri\":", urls[i]);
         }
@@ -30,16 +29,24 @@ std::size_t TextureTables::add_images(const std::string& name, const ImageSet* f
     return image_count_ - urls.size();
 }
 
+void TextureTables::add_file(const Slice& file, const char* type, Tables& tables) {
+    ((images += ",\"mimeType\":\"") += type) += "\",\"bufferView\":";
+    append(images, tables.view(file.size));
+    image_files.push_back(file);
+}
+
 std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tables,
                                        Extensions& used) {
-    for (std::size_t k = 0; k < sources.size(); ++k)
-        if (sources[k]->images == material.images &&
-            sources[k]->image_urls == material.image_urls &&
-            sources[k]->repeats_u == material.repeats_u)
-            return 3 * k;
-    const std::size_t sampler = sampler_of(material.repeats_u);
-    const std::size_t first = 3 * sources.size();
-    sources.push_back(&material);
+    for (const Source& source : sources_)
+        if (source.material->images == material.images &&
+            source.material->image_urls == material.image_urls &&
+            source.material->repeats_u == material.repeats_u)
+            return source.first;
+    const std::size_t sampler =
+        sampler_of(material.repeats_u ? Sampling::repeated : Sampling::clamped);
+    const std::size_t first = texture_count_;
+    sources_.push_back({&material, first});
+    texture_count_ += 3;
     const bool is_webp = (material.images ? material.images->format : material.url_format) ==
                          ImageFormat::webp,
                falls_back = material.fallback || !material.fallback_urls[0].empty();
@@ -63,14 +70,27 @@ std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tabl
     return first;
 }
 
-std::size_t TextureTables::sampler_of(bool repeats_u) {
-    const auto found = std::find(sampler_repeats.begin(), sampler_repeats.end(), repeats_u);
-    if (found != sampler_repeats.end())
-        return static_cast<std::size_t>(found - sampler_repeats.begin());
-    sampler_repeats.push_back(repeats_u);
-    (samplers += separator(samplers)) += "{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":";
-    (samplers += repeats_u ? "10497" : "33071") += ",\"wrapT\":33071}";
-    return sampler_repeats.size() - 1;
+std::size_t TextureTables::texture_of_tiles(const std::string& name, const Slice& png,
+                                            Tables& tables) {
+    append_quoted((images += separator(images)) += "{\"name\":", name);
+    add_file(png, "image/png", tables);
+    images += '}';
+    append((textures += separator(textures)) += "{\"sampler\":", sampler_of(Sampling::nearest));
+    append(textures += ",\"source\":", image_count_++);
+    textures += '}';
+    return texture_count_++;
+}
+
+std::size_t TextureTables::sampler_of(Sampling sampling) {
+    const auto found = std::find(sampling_.begin(), sampling_.end(), sampling);
+    if (found != sampling_.end()) return static_cast<std::size_t>(found - sampling_.begin());
+    sampling_.push_back(sampling);
+    (samplers += separator(samplers)) += sampling == Sampling::nearest
+                                             ? "{\"magFilter\":9728,\"minFilter\":9728"
+                                             : "{\"magFilter\":9729,\"minFilter\":9987";
+    ((samplers += ",\"wrapS\":") += sampling == Sampling::repeated ? "10497" : "33071") +=
+        ",\"wrapT\":33071}";
+    return sampling_.size() - 1;
 }
 
 void Extensions::use(const std::string& name) {
@@ -104,8 +124,11 @@ namespace {
 ///
 /// textures  index of the first of its own; none for a material without images
 /// extended  with extensions; otherwise only the emission of core glTF
-std::string material_extensions_json(const MaterialLook& look, std::optional<std::size_t> textures,
-                                     bool extended, Extensions& used) {
+std::string material_extensions_json(const GlbMaterial& material,
+                                     std::optional<std::size_t> textures, bool extended,
+                                     TextureTables& texture_tables, Tables& tables,
+                                     Extensions& used) {
+    const MaterialLook& look = material.look;
     const auto is_visible = [](const glm::dvec3& light) {
         return light.x > 0.0 || light.y > 0.0 || light.z > 0.0;
     };
@@ -119,6 +142,11 @@ std::string material_extensions_json(const MaterialLook& look, std::optional<std
         append(out += "{\"index\":", *textures + which);
         out += '}';
     };
+    const auto texture_of_tiles = [&](std::string& out, const char* kind, const Slice& png) {
+        const std::string name = material.name + '_' + kind;
+        append(out += "{\"index\":", texture_tables.texture_of_tiles(name, png, tables));
+        out += '}';
+    };
     if (look.coat > 0.0) {
         std::string coat = "\"clearcoatFactor\":";
         append(coat, static_cast<float>(look.coat));
@@ -128,6 +156,8 @@ std::string material_extensions_json(const MaterialLook& look, std::optional<std
             texture(coat += ",\"clearcoatRoughnessFactor\":1,\"clearcoatRoughnessTexture\":", 2);
         else
             coat += ",\"clearcoatRoughnessFactor\":0.25";
+        if (extended && material.tile_looks.coat.size > 0)
+            texture_of_tiles(coat += ",\"clearcoatTexture\":", "coat", material.tile_looks.coat);
         extension("KHR_materials_clearcoat", coat);
     }
     if (is_visible(look.glow)) {
@@ -138,6 +168,9 @@ std::string material_extensions_json(const MaterialLook& look, std::optional<std
     if (is_visible(look.sheen)) {
         std::string sheen = "\"sheenColorFactor\":";
         append_triple(sheen, glm::vec3(look.sheen));
+        if (extended && material.tile_looks.sheen.size > 0)
+            texture_of_tiles(sheen += ",\"sheenColorTexture\":", "sheen",
+                             material.tile_looks.sheen);
         extension("KHR_materials_sheen", sheen + ",\"sheenRoughnessFactor\":0.45");
     }
     if (extensions.empty()) return emission;
@@ -168,14 +201,16 @@ std::string material_json(const GlbMaterial& material, bool extended, TextureTab
     append_quoted(json, material.name);
     if (!is_textured(material) || material.is_external)
         return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
-               material_extensions_json(material.look, std::nullopt, extended, used) +
+               material_extensions_json(material, std::nullopt, extended, texture_tables, tables,
+                                        used) +
                external_images_json(material) + "}";
     const std::size_t first = texture_tables.textures_of(material, tables, used);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);
     append(json += "},\"occlusionTexture\":{\"index\":", first + 2);
-    return json + "}" + material_extensions_json(material.look, first, extended, used) + "}";
+    return json + "}" +
+           material_extensions_json(material, first, extended, texture_tables, tables, used) + "}";
 }
 
 }  // namespace sporeprint::gltf

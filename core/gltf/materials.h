@@ -22,24 +22,44 @@ struct Extensions {
     [[nodiscard]] std::string json() const;
 };
 
+/// How a texture is sampled.
+enum class Sampling {
+    clamped,   ///< trilinear, clamped to the edge
+    repeated,  ///< trilinear, repeated in u
+    nearest    ///< the nearest texel, clamped to the edge
+};
+
 /// The tables of textures, images and samplers.
 struct TextureTables {
     std::string textures, images, samplers;
-    std::vector<const GlbMaterial*> sources;  ///< materials that added textures, three each
-    std::vector<bool> sampler_repeats;        ///< by sampler
+    std::vector<Slice> image_files;  ///< embedded images, in the order of their views
 
     /// Returns the index of the first texture of a material; adds its textures unless an earlier
     /// material has the same images.
     std::size_t textures_of(const GlbMaterial& material, Tables& tables, Extensions& used);
 
+    /// Adds a texture of a PNG image with one texel for each tile of an atlas; returns its index.
+    std::size_t texture_of_tiles(const std::string& name, const Slice& png, Tables& tables);
+
   private:
-    std::size_t image_count_ = 0;
+    /// A material that added three textures, and the index of the first.
+    struct Source {
+        const GlbMaterial* material;
+        std::size_t first;
+    };
+
+    std::vector<Source> sources_;
+    std::vector<Sampling> sampling_;  ///< by sampler
+    std::size_t texture_count_ = 0, image_count_ = 0;
+
+    /// Adds the view of an embedded image.
+    void add_file(const Slice& file, const char* type, Tables& tables);
 
     /// Adds three images, embedded or linked, with names that begin with `name`; returns the index of
     /// the first.
     std::size_t add_images(const std::string& name, const ImageSet* files,
                            const std::array<std::string, 3>& urls, Tables& tables);
-    std::size_t sampler_of(bool repeats_u);
+    std::size_t sampler_of(Sampling sampling);
 };
 
 /// Returns true if a material has images, embedded, linked or external.

@@ -160,6 +160,12 @@ std::string skin_name(const ColonySpec& spec) {
     return level_name(product_name(painted) + "_colony_skin", spec.params.lod);
 }
 
+std::string atlas_name(const Mix& mix, const std::vector<std::string>& tiles) {
+    std::string text;
+    for (const std::string& tile : tiles) (text += tile) += ' ';
+    return (mix.empty() ? "mushrooms" : named(mix)) + "_atlas" + hash_of(text);
+}
+
 std::string bark_name(const std::string& preset, const TreePaint& paint, Textures textures) {
     return shared_name(preset.empty() ? "tree" : preset, "_bark", canonical_text(paint), textures);
 }

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/atlas/atlas.h"
 #include "core/colony/colony_spec.h"
@@ -38,6 +39,13 @@ namespace sporeprint {
 /// depend on the seed, and its resolution on the level of detail: "amanita_muscaria_s7_a60_skin_LOD1".
 [[nodiscard]] std::string skin_name(const MushroomSpec& spec);
 [[nodiscard]] std::string skin_name(const ColonySpec& spec);
+
+/// Returns the name of a material whose images are tiles of an atlas, from the species and a hash of
+/// all tiles: "amanita_muscaria_atlas_5b0c9a1e".
+///
+/// mix    of all tiles; empty for an atlas of several
+/// tiles  skin_name() of each
+[[nodiscard]] std::string atlas_name(const Mix& mix, const std::vector<std::string>& tiles);
 
 /// Returns the name of a material that all individuals with the same images share, from the preset
 /// and a hash of everything that the images depend on: "broadleaf_bark_5b0c9a1e".

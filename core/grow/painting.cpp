@@ -294,42 +294,61 @@ std::string image_key(const PaintSpec& paint_spec, ImageFormat format) {
     return key;
 }
 
+namespace {
+
+// Paints the species of a mix, and returns what `blend` makes of the paintings, their weights and
+// their parameters.
+template <class Blend>
+auto blended(const PaintSpec& paint_spec, const ExecutionContext& execution, Blend blend) {
+    std::vector<const PaintParams*> params;
+    std::vector<double> weights;
+    for (const PaintShare& share : paint_spec) {
+        params.push_back(&share.painting);
+        weights.push_back(share.sixty_fourths / static_cast<double>(whole));
+    }
+    const std::vector<ImageRotations> turns = aligned_rotations(params, weights);
+    std::vector<std::shared_ptr<const RawImages>> paintings;
+    std::vector<const RawImages*> raw;
+    for (std::size_t i = 0; i < paint_spec.size(); ++i) {
+        throw_if_cancelled(execution);
+        const PaintParams bare = without_patches(*params[i]);
+        std::string key = "raw " + painting_key(bare);
+        for (const double turn : {turns[i].cap, turns[i].hymenium, turns[i].stem})
+            (key += ' ') += number_text(turn);
+        paintings.push_back(execution.caches.paintings(key, [&] {
+            return std::make_shared<const RawImages>(paint_raw(bare, execution.parallel, turns[i]));
+        }));
+        raw.push_back(paintings.back().get());
+    }
+    return blend(raw, weights, params);
+}
+
+}  // namespace
+
+RawImages raw_images(const PaintSpec& paint_spec, const ExecutionContext& execution) {
+    throw_if_cancelled(execution);
+    if (paint_spec.size() == 1) return paint_raw(paint_spec.front().painting, execution.parallel);
+    return blended(paint_spec, execution,
+                   [&](const auto& raw, const auto& weights, const auto& params) {
+                       return blend_raw(raw, weights, execution.parallel, params);
+                   });
+}
+
 std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,
                                                const ExecutionContext& execution,
                                                ImageFormat format) {
-    const auto blended = [&] {
-        std::vector<const PaintParams*> params;
-        std::vector<double> weights;
-        for (const PaintShare& share : paint_spec) {
-            params.push_back(&share.painting);
-            weights.push_back(share.sixty_fourths / static_cast<double>(whole));
-        }
-        const std::vector<ImageRotations> turns = aligned_rotations(params, weights);
-        std::vector<std::shared_ptr<const RawImages>> paintings;
-        std::vector<const RawImages*> raw;
-        for (std::size_t i = 0; i < paint_spec.size(); ++i) {
-            if (execution.stop.stop_requested()) throw Cancelled();
-            const PaintParams bare = without_patches(*params[i]);
-            std::string key = "raw " + painting_key(bare);
-            for (const double turn : {turns[i].cap, turns[i].hymenium, turns[i].stem})
-                (key += ' ') += number_text(turn);
-            paintings.push_back(execution.caches.paintings(key, [&] {
-                return std::make_shared<const RawImages>(
-                    paint_raw(bare, execution.parallel, turns[i]));
-            }));
-            raw.push_back(paintings.back().get());
-        }
-        return std::make_shared<const ImageSet>(
-            blend_images(raw, weights, execution.parallel, params, format));
-    };
-    return execution.caches.images(
-        image_key(paint_spec, format), [&]() -> std::shared_ptr<const ImageSet> {
-            if (paint_spec.size() > 1) return blended();
-            throw_if_cancelled(
-                execution);  // uploads of a model are decoded first, 80 ms each at most
+    return execution.caches.images(image_key(paint_spec, format), [&] {
+        // Uploads of a model are decoded first, 80 ms each at most.
+        throw_if_cancelled(execution);
+        if (paint_spec.size() == 1)
             return std::make_shared<const ImageSet>(
                 paint(paint_spec.front().painting, execution.parallel, format));
-        });
+        return blended(paint_spec, execution,
+                       [&](const auto& raw, const auto& weights, const auto& params) {
+                           return std::make_shared<const ImageSet>(
+                               blend_images(raw, weights, execution.parallel, params, format));
+                       });
+    });
 }
 
 }  // namespace sporeprint

@@ -64,6 +64,11 @@ using PaintSpec = std::vector<PaintShare>;
 /// key of its painting.
 [[nodiscard]] std::string image_key(const PaintSpec& paint_spec, ImageFormat format);
 
+/// Returns the images before encoding; those of a mix are blended from paintings that may be cached.
+///
+/// throws  as painted_images()
+[[nodiscard]] RawImages raw_images(const PaintSpec& paint_spec, const ExecutionContext& execution);
+
 /// Returns the images, cached in execution.caches or painted now. A mix is blended from paintings
 /// that may be cached too; uploaded images of several species are rotated to match first.
 ///

@@ -35,9 +35,15 @@ int most_seeds(const SetSpec& spec) {
         seeds = std::min(
             seeds,
             std::max<std::size_t>(1, static_cast<std::size_t>(params.individuals) / combinations));
-    if (params.draw_calls > 0) {
+    const auto draw_calls = static_cast<std::size_t>(params.draw_calls);
+    if (draw_calls > 0 && params.atlas != AtlasShare::none) {
+        if (const std::size_t needed = atlases_of(spec); draw_calls < needed)
+            throw Impossible("/draw_calls", "the atlases of all species need " +
+                                                std::to_string(needed) +
+                                                " draw calls; ask for atlas=set");
+    } else if (draw_calls > 0) {
         const std::size_t of_one_seed = combinations * params.levels.size();
-        seeds = std::min(seeds, static_cast<std::size_t>(params.draw_calls) / of_one_seed);
+        seeds = std::min(seeds, draw_calls / of_one_seed);
         if (seeds == 0)
             throw Impossible("/draw_calls", "one individual of each species and age needs " +
                                                 std::to_string(of_one_seed) +
@@ -64,11 +70,28 @@ void distribute(int shown, std::vector<SetIndividual>& individuals) {
         individuals[i].shown = count / all + (i < count % all ? 1 : 0);
 }
 
+/// Returns the number of different images of a set.
+std::size_t images_of(const SetSpec& spec) {
+    const bool by_seed = spec.mushroom.share == ImageShare::individual;
+    return spec.species.size() * spec.params.ages.size() *
+           (by_seed ? static_cast<std::size_t>(spec.params.seeds) : 1);
+}
+
 std::uint64_t bytes_of(const std::vector<SetIndividual>& individuals) {
     std::uint64_t bytes = 0;
     for (const SetIndividual& one : individuals)
         for (const Estimate& file : one.files) bytes += file.bytes;
     return bytes;
+}
+
+/// Returns the texels of the images of an atlas.
+///
+/// side  of the images at LOD 0
+std::uint64_t atlas_texels(const SetSpec& spec, int side) {
+    const std::size_t tiles = tiles_of_atlas(spec);
+    if (tiles == 0) return 0;
+    const auto side_of_tile = static_cast<std::uint64_t>(side >> spec.params.levels.front());
+    return 3 * grid_of(tiles).size() * side_of_tile * side_of_tile;
 }
 
 }  // namespace
@@ -113,8 +136,59 @@ Textures counted_textures(const SetSpec& spec, int seed, std::size_t level) {
     return is_first ? textures : Textures::linked;
 }
 
+std::size_t atlases_of(const SetSpec& spec) {
+    switch (spec.params.atlas) {
+        case AtlasShare::none:
+            break;
+        case AtlasShare::species:
+            return spec.species.size();
+        case AtlasShare::set:
+            return 1;
+    }
+    return 0;
+}
+
+std::size_t tiles_of_atlas(const SetSpec& spec) {
+    const std::size_t atlases = atlases_of(spec);
+    return atlases == 0 ? 0 : images_of(spec) / atlases;
+}
+
+void refuse_impossible_atlas(const SetSpec& spec) {
+    const AtlasShare atlas = spec.params.atlas;
+    if (atlas == AtlasShare::none) return;
+    const std::string value = std::string("'") + name(atlas) + "' ";
+    if (spec.packing == SetPacking::files)
+        throw Impossible("/atlas", value +
+                                       "is impossible for files of their own; ask for one file "
+                                       "(sets.glb), or for none");
+    if (spec.mushroom.textures != Textures::embedded)
+        throw Impossible("/atlas", value +
+                                       "needs images in the file; ask for textures=embedded, or "
+                                       "for none");
+    const std::size_t tiles = tiles_of_atlas(spec);
+    if (tiles > most_tiles) {
+        const bool by_seed = spec.mushroom.share == ImageShare::individual && spec.params.seeds > 1;
+        throw Impossible(
+            "/atlas",
+            value + "would have " + std::to_string(tiles) +
+                " different images in one atlas; at most " + std::to_string(most_tiles) +
+                " are possible. Ask for " +
+                (by_seed ? "share=species, or for fewer seeds or " : "fewer ") +
+                (atlas == AtlasShare::set ? "ages or species, or for atlas=species" : "ages"));
+    }
+    const TileGrid grid = grid_of(tiles);
+    const int side = spec.mushroom.texture_size.value >> spec.params.levels.front();
+    if (const int longest = std::max(grid.columns, grid.rows) * side; longest > largest_tiled_side)
+        throw Impossible("/texture_size",
+                         std::to_string(tiles) + " tiles of " + std::to_string(side) +
+                             " texels would be an atlas of " + std::to_string(longest) +
+                             " texels a side; at most " + std::to_string(largest_tiled_side) +
+                             " are possible. Lower texture_size, or raise the first of levels");
+}
+
 SetPlan planned_set(const SetSpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
     const SetParams& params = spec.params;
+    refuse_impossible_atlas(spec);
     SetPlan plan;
     plan.seeds = most_seeds(spec);
     const std::vector<int> sizes = texture_sizes(spec.mushroom);
@@ -144,7 +218,10 @@ SetPlan planned_set(const SetSpec& spec, const Atlas& atlas, const ExecutionCont
                     for (std::size_t level = 0; level < params.levels.size(); ++level) {
                         MushroomSpec file = file_spec(spec, one.individual, level);
                         file.params.textures = counted_textures(spec, seed, level);
-                        files.push_back(estimate(file, resolved));
+                        Estimate& estimated = files.emplace_back(estimate(file, resolved));
+                        // A painting is copied into its atlas while it is in memory.
+                        if (file.params.textures == Textures::embedded)
+                            estimated.texels += atlas_texels(spec, side);
                     }
                 }
                 row.push_back(std::move(one));

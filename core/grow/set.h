@@ -8,11 +8,27 @@
 #include "core/atlas/atlas.h"
 #include "core/grow/product.h"
 #include "core/individual/mushroom_spec.h"
+#include "core/surface/image_tiles.h"
 
 namespace sporeprint {
 
 /// Largest number of species or mixes of a set, and of its files.
 inline constexpr std::size_t most_set_species = 64, most_set_files = 1024;
+
+/// Which individuals of a file share one atlas of tiles, and with it a material.
+enum class AtlasShare { none, species, set };
+
+constexpr const char* name(AtlasShare share) {
+    switch (share) {
+        case AtlasShare::none:
+            return "none";
+        case AtlasShare::species:
+            return "species";
+        case AtlasShare::set:
+            return "set";
+    }
+    return nullptr;
+}
 
 /// The parameters of a set beside its species and those of the mushrooms themselves.
 struct SetParams {
@@ -23,6 +39,7 @@ struct SetParams {
     int individuals = 0;
     int draw_calls = 0;
     double megabytes = 0.0;
+    AtlasShare atlas = AtlasShare::none;
 
     static constexpr void fields(auto visit) {
         using P = SetParams;
@@ -57,7 +74,8 @@ struct SetParams {
                    .min = 0,
                    .max = 100000,
                    .doc = "Most draw calls in view: one for each different individual and level, "
-                          "drawn as instances; 0 for any number. Lowers seeds."});
+                          "drawn as instances; 0 for any number. Lowers seeds. With an atlas one "
+                          "for each material, drawn as a batch, whatever the seeds."});
         visit(&P::megabytes,
               Info{.name = "megabytes",
                    .unit = "MB",
@@ -65,6 +83,14 @@ struct SetParams {
                    .max = 4000,
                    .doc = "Most bytes of all files, estimated; 0 for any number. Lowers "
                           "texture_size, then seeds."});
+        visit(&P::atlas,
+              Info{.name = "atlas",
+                   .doc = "Images as tiles of one atlas, in a file of all individuals: one "
+                          "material for each species or for the whole set, which a client draws in "
+                          "one call. At most 16 different images each, those of species times ages "
+                          "times seeds, or with share=species of species times ages; texture_size "
+                          "is the side of a tile, and a side of the atlas is at most 4096 "
+                          "texels."});
     }
     void check(const std::string& path, std::vector<Problem>& problems) const;
     bool operator==(const SetParams&) const = default;
@@ -116,11 +142,21 @@ struct SetPlan {
 /// level  index into SetParams::levels
 [[nodiscard]] Textures counted_textures(const SetSpec& spec, int seed, std::size_t level);
 
+/// Returns the number of atlases of one file of a set, and of tiles of each, for as many seeds as
+/// requested.
+[[nodiscard]] std::size_t atlases_of(const SetSpec& spec);
+[[nodiscard]] std::size_t tiles_of_atlas(const SetSpec& spec);
+
+/// Throws Impossible for an atlas that a set cannot have: (path "/atlas") of more tiles than
+/// most_tiles, or without embedded images, or in files of their own; (path "/texture_size") larger
+/// than largest_tiled_side.
+void refuse_impossible_atlas(const SetSpec& spec);
+
 /// Returns the individuals of a set: all combinations of species, ages and seeds, in this order,
 /// with as many seeds and as large images as the budget allows.
 ///
-/// throws  InvalidInput and Impossible as resolve(); Impossible (paths "/draw_calls" and
-///         "/megabytes", with the least that is needed) for a budget that not even one individual
+/// throws  InvalidInput and Impossible as resolve(); Impossible as refuse_impossible_atlas(), and
+///         (paths "/draw_calls" and "/megabytes", with the least that is needed) for a budget that not even one individual
 ///         of each species and age with the smallest images fits into; Cancelled
 /// cost    one resolve() for each individual
 [[nodiscard]] SetPlan planned_set(const SetSpec& spec, const Atlas& atlas,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +10,7 @@
 #include "core/grow/collision.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
-#include "core/grow/painting.h"
+#include "core/grow/set_materials.h"
 #include "core/mesh/index_order.h"
 #include "core/params/canonical.h"
 #include "core/params/reader.h"
@@ -26,7 +25,7 @@ constexpr double grid_spacing = 1.25;
 /// One individual in the file.
 struct SetMember {
     std::string name;
-    std::size_t material = 0;
+    SetTile images;
     std::vector<Level> levels;
     std::vector<Mesh> meshes;
     Bounds box;
@@ -100,7 +99,7 @@ void add_nodes(GlbScene& scene, SetMember& member, Lods lods) {
         member.nodes.push_back(scene.nodes.size());
         scene.nodes.push_back(
             {.name = own, .mesh = scene.meshes.size(), .translation = member.place});
-        scene.meshes.push_back({own, {{&member.meshes[level], member.material, {}}}});
+        scene.meshes.push_back({own, {{&member.meshes[level], member.images.material, {}}}});
     }
     link_levels(scene, member.nodes, member.levels, lods);
 }
@@ -165,14 +164,17 @@ Value individuals_value(const SetSpec& spec, const SetPlan& plan,
             item.set("node", Value(member.nodes[level]));
             named.push(std::move(item));
         }
-        list.push(Value::object()
-                      .set("name", member.name)
-                      .set("species", mix_text(spec.species[one.species]))
-                      .set("seed", one.params.seed)
-                      .set("age", one.params.age)
-                      .set("shown", one.shown)
-                      .set("bounds_m", bounds_value(member.box))
-                      .set("levels", std::move(named)));
+        Value item = Value::object()
+                         .set("name", member.name)
+                         .set("species", mix_text(spec.species[one.species]))
+                         .set("seed", one.params.seed)
+                         .set("age", one.params.age)
+                         .set("shown", one.shown)
+                         .set("bounds_m", bounds_value(member.box))
+                         .set("levels", std::move(named));
+        if (spec.params.atlas != AtlasShare::none)
+            item.set("material", member.images.material).set("tile", member.images.tile);
+        list.push(std::move(item));
     }
     return list;
 }
@@ -182,6 +184,7 @@ Value individuals_value(const SetSpec& spec, const SetPlan& plan,
 void refuse_in_one_file(const SetSpec& spec) {
     const MushroomParams& mushroom = spec.mushroom;
     refuse_impossible(mushroom.file, mushroom.textures);
+    refuse_impossible_atlas(spec);
     if (mushroom.animation != Animation::none)
         throw Impossible("/animation", std::string("'") + name(mushroom.animation) +
                                            "' is impossible: a clip moves one individual; ask for "
@@ -203,30 +206,19 @@ Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
     GlbScene scene;
     set_options(scene, mushroom.file);
     std::vector<SetMember> members;
-    std::map<std::string, std::size_t> material_of;  // by images and look
-    std::vector<EmbeddedImages> images;              // of each material
+    SetMaterials materials(spec);
     for (const SetIndividual& one : plan.individuals) {
         throw_if_cancelled(execution);
         execution.observer(Step::build);
-        const MushroomSpec first = file_spec(spec, one, 0);
-        const Individual individual = resolve(first, atlas, execution.caches.morphs);
+        const Individual individual =
+            resolve(file_spec(spec, one, 0), atlas, execution.caches.morphs);
         SetMember& member = members.emplace_back(member_of(spec, one, individual));
-        // Names of materials state what their images depend on.
-        const auto [found, is_new] = material_of.try_emplace(skin_name(first), images.size());
-        member.material = found->second;
-        if (!is_new) continue;
-        GlbMaterial& material = scene.materials.emplace_back();
-        material.name = found->first;
-        material.look = look_of(individual.model);
-        const ImageUrls urls =
-            has_addresses(mushroom.textures) && links ? links(first) : ImageUrls{};
-        images.push_back(attach_images(
-            material, mushroom.textures, mushroom.file, urls, execution, [&](ImageFormat format) {
-                return painted_images(paint_spec_of(first, atlas, execution.caches), execution,
-                                      format);
-            }));
+        member.images = materials.add(one, look_of(individual.model));
     }
+    materials.add_to(scene, atlas, links, execution);
     execution.observer(Step::pack);
+    for (SetMember& member : members)
+        for (Mesh& mesh : member.meshes) materials.move_to_tile(mesh, member.images);
     place_on_grid(members);
     const Wind wind = set_wind(members, mushroom.file.wind);
     Grown grown;
@@ -245,6 +237,7 @@ Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
     }
     Value extras = extras_value({}, effective_of(spec, plan), box, triangles, {}, wind);
     extras.set("individuals", individuals_value(spec, plan, members));
+    if (spec.params.atlas != AtlasShare::none) extras.set("atlases", materials.atlases_value());
     scene.extras_json = dump(extras);
     std::vector<Collision> collisions;
     collisions.reserve(members.size());

@@ -69,7 +69,9 @@ struct Quality {
 constexpr std::array<Quality, 3> qualities = {
     {{88, Chroma::halved, 75}, {89, Chroma::full, 75}, {88, Chroma::halved, 60}}};
 
-ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int side,
+}  // namespace
+
+ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int width, int height,
                  ImageFormat format, const Parallel& parallel) {
     ImageSet out;
     out.format = format;
@@ -77,8 +79,9 @@ ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int si
         const auto i = static_cast<std::size_t>(kind);
         const Quality& quality = qualities[i];
         out.files[i] = Slice(std::make_shared<const Bytes>(
-            format == ImageFormat::webp ? webp(rgb[i], side, side, quality.webp)
-                                        : jpeg(rgb[i], side, side, quality.jpeg, quality.chroma)));
+            format == ImageFormat::webp
+                ? webp(rgb[i], width, height, quality.webp)
+                : jpeg(rgb[i], width, height, quality.jpeg, quality.chroma)));
     };
     // The image that takes longest first.
     const std::array<std::function<void()>, 3> pieces = {[&] { encode(ImageKind::normal); },
@@ -88,16 +91,15 @@ ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int si
     return out;
 }
 
-}  // namespace
-
 ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& parallel) {
     std::array<std::span<const std::uint8_t>, 3> rgb;
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = {canvas.image(i), canvas.size()};
-    return encoded(rgb, canvas.side(), format, parallel);
+    return encoded(rgb, canvas.side(), canvas.side(), format, parallel);
 }
 
 ImageSet encoded(const RawImages& images, ImageFormat format, const Parallel& parallel) {
-    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.side, format, parallel);
+    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.side, images.side, format,
+                   parallel);
 }
 
 RawImages raw(const Canvas& canvas) {

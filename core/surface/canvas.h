@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/surface/paint.h"
 #include "core/surface/plan.h"
@@ -41,6 +42,12 @@ class Canvas {
 
 /// Encodes the three images with the qualities stated at paint().
 [[nodiscard]] ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& parallel);
+
+/// Encodes three images of any size in the same way.
+///
+/// rgb  3 * width * height bytes each, indexed by ImageKind
+[[nodiscard]] ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int width,
+                               int height, ImageFormat format, const Parallel& parallel);
 
 /// Returns a copy of the three images.
 [[nodiscard]] RawImages raw(const Canvas& canvas);

@@ -132,6 +132,7 @@ void add_mushrooms(Cases& cases, const std::vector<std::string>& swept) {
     add_get(cases, "/v1/mushrooms/amanita_muscaria.glb?wind=attribute&textures=none");
     add_get(cases, "/v1/mushrooms/amanita_muscaria.glb?variants=weather&texture_size=256");
     add_get(cases, "/v1/mushrooms/boletus_edulis.glb?variants=weather&lod=1");
+    add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?variants=weather&lod=2");
     add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?wind=color&lod=1&textures=none");
     for (int lod = 0; lod < 4; ++lod)
         add_get(cases, levelled("/v1/trees/birch.glb", lod, "&wind=attribute&textures=none"));
@@ -289,6 +290,19 @@ void add_surfaces(Cases& cases, const std::vector<std::string>& swept) {
             add_get(cases, "/v1/mushrooms/" + of + "/orm.jpg?side=" + size);
 }
 
+void add_sets(Cases& cases) {
+    const auto add = [&](const std::string& options) {
+        const std::string body =
+            R"({"species":["amanita_muscaria","boletus_edulis","mycena_sanguinolenta"],)" + options;
+        cases.push_back({"set " + options, post(body, "/v1/sets.glb")});
+    };
+    for (const char* atlas : {"none", "species", "set"})
+        for (const char* options :
+             {R"("levels":[1],"ages":[0.3,0.6])", R"("levels":[2],"profile":"web")",
+              R"("levels":[2,3],"seeds":3,"share":"species","lods":"msft","texture_size":2048)"})
+            add(std::string(options) + R"(,"atlas":")" + atlas + "\"}");
+}
+
 std::string glb_of(std::string json, std::size_t binary) {
     while (json.size() % 4) json += ' ';
     const auto word = [](std::size_t number) {
@@ -335,6 +349,7 @@ Cases all_cases() {
     add_plants(cases);
     add_surfaces(cases, swept);
     add_inspections(cases);
+    add_sets(cases);
     return cases;
 }
 

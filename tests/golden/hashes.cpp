@@ -419,6 +419,19 @@ void add_sets(Requests& requests, const std::shared_ptr<const Atlas>& species) {
                 return grow_set(spec, planned_set(spec, *species, {}), *species).glb;
             };
         }
+    for (const AtlasShare atlas : {AtlasShare::species, AtlasShare::set}) {
+        SetSpec spec;
+        spec.species = {{{"amanita_muscaria", 1000}}, {{"hygrocybe_conica", 1000}}};
+        spec.params.ages = {0.3, 0.6};
+        spec.params.levels = {3};
+        spec.params.atlas = atlas;
+        spec.mushroom.texture_size.value = small_side;
+        spec.packing = SetPacking::one_file;
+        requests[line_of(std::string("set/atlas/") + name(atlas), 4, 3, small_side)] = [spec,
+                                                                                        species] {
+            return grow_set(spec, planned_set(spec, *species, {}), *species).glb;
+        };
+    }
 }
 
 /// Adds individuals that have the images of seed 1.

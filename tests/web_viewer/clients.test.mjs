@@ -96,6 +96,47 @@ test("a forest of 300 individuals fits on a phone", async (t) => {
     assert.deepEqual(log.console.filter((line) => /^(error|uncaught)/.test(line)), []);
 });
 
+/** Returns how the pictures of two files differ. */
+async function differenceOf(t, query) {
+    const page = await browser.newPage();
+    t.after(() => page.close());
+    await page.goto(`${address}compare?${new URLSearchParams({ server, ...query })}`);
+    await page.waitForFunction(() => window.difference, null, { timeout: 60_000 });
+    const difference = await page.evaluate(() => window.difference);
+    if (!difference.error)
+        await page.screenshot({ path: path.join(await screenshotFolder(), "compare.png") });
+    return difference;
+}
+
+test("a set of twelve species in one atlas is one draw call and looks the same", async (t) => {
+    const order = {
+        species: twelve,
+        levels: [1, 2, 3],
+        share: "species",
+        lods: "msft",
+        profile: "web",
+        texture_size: 1024,
+    };
+    for (const [atlas, draws] of [
+        ["species", 12],
+        ["set", 1],
+    ])
+        // From near, and from where an individual has 40 pixels and is drawn with mipmaps.
+        for (const distance of [4, 10]) {
+            const difference = await differenceOf(t, {
+                first: JSON.stringify(order),
+                second: JSON.stringify({ ...order, atlas }),
+                distance,
+            });
+            assert.equal(difference.error, undefined);
+            t.diagnostic(`${atlas} at ${distance}: ${JSON.stringify(difference)}`);
+            assert.deepEqual(difference.draws, [12, draws]);
+            assert.ok(difference.covered > 0.02, `${difference.covered} is covered`);
+            assert.ok(difference.mean < 1, `mean ΔE ${difference.mean}`);
+            assert.ok(difference.visible < 0.01, `${difference.visible} differs visibly`);
+        }
+});
+
 test("compressed files look like the uncompressed ones", async (t) => {
     const small = "lod=1&texture_size=512";
     for (const product of [
@@ -106,12 +147,10 @@ test("compressed files look like the uncompressed ones", async (t) => {
         `trees/spruce.glb?lod=2&texture_size=512`,
     ])
         for (const options of ["compress=quantize", "compress=meshopt"]) {
-            const page = await browser.newPage();
-            t.after(() => page.close());
-            const query = { server, first: product, second: `${product}&${options}` };
-            await page.goto(`${address}compare?${new URLSearchParams(query)}`);
-            await page.waitForFunction(() => window.difference, null, { timeout: 60_000 });
-            const { mean, covered, error } = await page.evaluate(() => window.difference);
+            const { mean, covered, error } = await differenceOf(t, {
+                first: product,
+                second: `${product}&${options}`,
+            });
             assert.equal(error, undefined);
             t.diagnostic(`${product} ${options}: mean ΔE ${mean.toFixed(3)}`);
             assert.ok(covered > 0.02, `${product} covers ${covered} of the picture`);

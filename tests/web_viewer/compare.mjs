@@ -19,23 +19,33 @@ export function pictureRenderer() {
     return renderer;
 }
 
-/** Returns the pixels of a model, seen from the front, as RGBA. */
-export function picture(renderer, model) {
+/** Returns the pixels of a model, seen from the front, as RGBA, and its draw calls.
+ *
+ *  bounds    of the model
+ *  distance  of the camera, in radii of the bounds; 4 fills the picture
+ *  update    called with the camera before the model is drawn */
+export function picture(
+    renderer,
+    model,
+    { bounds = new Box3().setFromObject(model, true), distance = 4, update = () => {} } = {},
+) {
     const scene = new Scene();
     const sun = new DirectionalLight(0xffffff, 2);
     sun.position.set(-1, 2, 1.5);
     scene.add(model, sun, new AmbientLight(0xffffff, 1));
-    const ball = new Box3().setFromObject(model, true).getBoundingSphere(new Sphere());
-    const camera = new PerspectiveCamera(30, 1, ball.radius / 10, ball.radius * 20);
+    const ball = bounds.getBoundingSphere(new Sphere());
+    const camera = new PerspectiveCamera(30, 1, ball.radius / 10, ball.radius * 5 * distance);
     camera.position.copy(ball.center);
-    camera.position.z += ball.radius * 4;
+    camera.position.z += ball.radius * distance;
     camera.position.y += ball.radius * 0.5;
     camera.lookAt(ball.center);
+    camera.updateMatrixWorld();
+    update(camera);
     renderer.render(scene, camera);
     const gl = renderer.getContext();
     const pixels = new Uint8Array(4 * side * side);
     gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    return pixels;
+    return { pixels, draws: renderer.info.render.calls };
 }
 
 /** Returns CIE L*a*b* (D65) of an sRGB colour. */
@@ -53,16 +63,25 @@ function lab(pixels, at) {
     return [116 * xyz[1] - 16, 500 * (xyz[0] - xyz[1]), 200 * (xyz[1] - xyz[2])];
 }
 
-/** Returns the mean colour difference (CIE 1976 ΔE) of the pixels that either picture covers, and
- *  their share of the picture. */
-export function differenceOf(first, second) {
+/** Returns the mean colour difference (CIE 1976 ΔE) of the pixels that either picture covers, their
+ *  share of the picture, the share of them that differs visibly, and the draw calls of both. */
+export function differenceOf(one, two) {
+    const [first, second] = [one.pixels, two.pixels];
     let sum = 0;
     let covered = 0;
+    let visible = 0;
     for (let at = 0; at < first.length; at += 4) {
         if (first[at + 3] === 0 && second[at + 3] === 0) continue;
         const [a, b] = [lab(first, at), lab(second, at)];
-        sum += Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        const delta = Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        sum += delta;
         ++covered;
+        if (delta > 5) ++visible;
     }
-    return { mean: sum / covered, covered: covered / (side * side) };
+    return {
+        mean: sum / covered,
+        covered: covered / (side * side),
+        visible: visible / covered,
+        draws: [one.draws, two.draws],
+    };
 }

@@ -147,6 +147,38 @@ TEST_F(Sets, OneFileHasAllIndividuals) {
     EXPECT_NE(refused(own + R"("levels":[0],"seeds":64})", "glb").find("422"), std::string::npos);
 }
 
+TEST_F(Sets, AnAtlasIsOneMaterialOfOneFile) {
+    const std::string body =
+        R"({"species":["amanita_muscaria","boletus_edulis"],"ages":[0.3,0.6],"levels":[3],
+            "texture_size":128,"share":"species")";
+    const auto materials = [&](const char* atlas) {
+        const Response response =
+            handle(service_, post(body + R"(,"atlas":")" + atlas + "\"}", "/v1/sets.glb"));
+        EXPECT_EQ(response.status, 200) << text_of(response);
+        const std::string file = text_of(response);
+        std::size_t count = 0;
+        for (std::size_t at = 0; (at = file.find("\"normalTexture\"", at)) != std::string::npos;
+             ++at)
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(materials("none"), 4U);
+    EXPECT_EQ(materials("species"), 2U);
+    EXPECT_EQ(materials("set"), 1U);
+    for (const char* ending : {"json", "zip"}) {
+        const std::string problem = refused(body + R"(,"atlas":"set"})", ending);
+        EXPECT_NE(problem.find("422"), std::string::npos);
+        EXPECT_NE(problem.find("\"/atlas\""), std::string::npos);
+    }
+    const std::string linked = refused(body + R"(,"atlas":"set","textures":"linked"})", "glb");
+    EXPECT_NE(linked.find("\"/atlas\""), std::string::npos);
+    const std::string many = refused(
+        R"({"species":["amanita_muscaria"],"levels":[3],"seeds":17,"atlas":"species"})", "glb");
+    EXPECT_NE(many.find("422"), std::string::npos);
+    EXPECT_NE(many.find("17 different images"), std::string::npos);
+    EXPECT_NE(refused(body + R"(,"atlas":"sett"})", "glb").find("400"), std::string::npos);
+}
+
 TEST_F(Sets, LargeOnesAreRefusedBeforeAnyWork) {
     std::string species;
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();

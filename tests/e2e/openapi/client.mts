@@ -81,7 +81,7 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const url: string | undefined = manifest?.files[0]?.url;
     if (!url) throw new Error("the manifest names no file");
     await client.POST("/v1/sets.zip", { body: set, ...binary });
-    await client.POST("/v1/sets.glb", { body: { ...set, lods: "msft", share: "species" }, ...binary });
+    await client.POST("/v1/sets.glb", { body: { ...set, lods: "msft", share: "species", atlas: "set" }, ...binary });
 
     const pair = { params: { path: { a: id, b: other } } };
     await client.HEAD("/v1/morphs/{a}/{b}", pair);

@@ -121,7 +121,7 @@ export interface components {
                     individuals?: number;
                     /**
                      * draw calls
-                     * @description Most draw calls in view: one for each different individual and level, drawn as instances; 0 for any number. Lowers seeds.
+                     * @description Most draw calls in view: one for each different individual and level, drawn as instances; 0 for any number. Lowers seeds. With an atlas one for each material, drawn as a batch, whatever the seeds.
                      * @default 0
                      */
                     draw_calls?: number;
@@ -131,6 +131,13 @@ export interface components {
                      * @default 0
                      */
                     megabytes?: number;
+                    /**
+                     * atlas
+                     * @description Images as tiles of one atlas, in a file of all individuals: one material for each species or for the whole set, which a client draws in one call. At most 16 different images each, those of species times ages times seeds, or with share=species of species times ages; texture_size is the side of a tile, and a side of the atlas is at most 4096 texels.
+                     * @default none
+                     * @enum {string}
+                     */
+                    atlas?: "none" | "species" | "set";
                     /**
                      * size
                      * @description Scale of the whole.
