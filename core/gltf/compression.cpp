@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -60,19 +58,6 @@ std::vector<std::uint32_t> order_of_first_use(std::span<const std::uint32_t> ind
     for (std::uint32_t i = 0; i < vertices; ++i)
         if (!is_used[i]) order.push_back(i);
     return order;
-}
-
-std::size_t bits_of_steps(std::span<const Quantized16> values, VertexOrder order) {
-    constexpr std::size_t stride = 8;
-    std::size_t bits = 0;
-    for (std::size_t i = 1; i < values.size(); i += stride) {
-        const Quantized16 &before = values[place_in(order, i - 1)],
-                          &here = values[place_in(order, i)];
-        for (std::size_t k = 0; k < 3; ++k)
-            bits += static_cast<std::size_t>(
-                std::bit_width(static_cast<unsigned>(std::abs(here[k] - before[k]))));
-    }
-    return bits;
 }
 
 float largest_coordinate(std::span<const glm::vec3> values, float at_least) {

@@ -34,10 +34,6 @@ using VertexOrder = std::span<const std::uint32_t>;
 [[nodiscard]] std::vector<std::uint32_t> order_of_first_use(std::span<const std::uint32_t> indices,
                                                             std::size_t vertices);
 
-/// Returns the bits of every eighth difference between successive vectors: about an eighth of what
-/// an encoder needs for them.
-[[nodiscard]] std::size_t bits_of_steps(std::span<const Quantized16> values, VertexOrder order);
-
 /// Returns vectors as integers: each times the step is within half a step of the vector.
 ///
 /// step  at least largest_coordinate() / most_quantized

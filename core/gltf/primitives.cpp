@@ -9,6 +9,7 @@
 
 #include "core/gltf/compression.h"
 #include "core/gltf/json_text.h"
+#include "core/mesh/index_order.h"
 #include "core/problems.h"
 
 namespace sporeprint::gltf {
@@ -92,16 +93,6 @@ void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, 
 
 constexpr const char* octahedral = "OCTAHEDRAL";
 
-/// Returns the order in which triangles first use the vertices of a mesh if it makes a compressed
-/// file smaller, else nothing. Triangles then need a byte less for each vertex. Vertices of a skin or
-/// of leaves need about as many bytes as before; those of swept rings, where each is close to the one
-/// before it, need a quarter more, and are recognised by their positions.
-std::vector<std::uint32_t> compact_order(const Mesh& mesh, std::span<const Quantized16> positions) {
-    std::vector<std::uint32_t> order = order_of_first_use(mesh.indices, positions.size());
-    if (10 * bits_of_steps(positions, order) > 11 * bits_of_steps(positions, {})) order.clear();
-    return order;
-}
-
 /// Returns the indices of a mesh whose vertices have another order.
 std::vector<std::uint32_t> renumbered(std::span<const std::uint32_t> indices, VertexOrder order) {
     std::vector<std::uint32_t> place(order.size()), out;
@@ -114,7 +105,7 @@ std::vector<std::uint32_t> renumbered(std::span<const std::uint32_t> indices, Ve
 /// Writes quantised geometry.
 ///
 /// step      of the positions
-/// renumber  whether vertices may have another order if they are compressed
+/// renumber  whether triangles and vertices may have another order if they are compressed
 Geometry quantized_geometry(const Mesh& mesh, TextureData data, GlbSway sway, float step,
                             bool compressed, bool renumber, Tables& tables) {
     check_mesh(mesh, data);
@@ -125,13 +116,14 @@ Geometry quantized_geometry(const Mesh& mesh, TextureData data, GlbSway sway, fl
     Geometry out;
     std::vector<Quantized16> items = quantized(mesh.positions, step);
     std::vector<std::uint32_t> order, triangles;
-    if (compressed && renumber) order = compact_order(mesh, items);
-    if (!order.empty()) {
+    if (compressed && renumber) {
+        triangles = triangles_by_last_vertex(mesh.indices, n);
+        order = order_of_first_use(triangles, n);
+        triangles = renumbered(triangles, order);
         std::vector<Quantized16> ordered;
         ordered.reserve(n);
         for (const std::uint32_t i : order) ordered.push_back(items[i]);
         items = std::move(ordered);
-        triangles = renumbered(mesh.indices, order);
     }
     out.attribute("POSITION", add_quantized(items, compressed, tables, *bytes));
     items = compressed ? octahedral_normals(mesh.normals, order, std::move(items))

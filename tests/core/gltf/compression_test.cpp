@@ -16,6 +16,7 @@
 #include "core/grow/colony.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/tree.h"
+#include "core/mesh/index_order.h"
 #include "core/params/value.h"
 #include "tests/support/atlas.h"
 #include "tests/support/glb_parts.h"
@@ -177,16 +178,33 @@ TEST(Compression, TangentsKeepTheirDirectionAndHandedness) {
         }
 }
 
+/// Returns the mesh in the order in which it is compressed.
+Mesh in_file_order(const Mesh& mesh) {
+    Mesh out = mesh;
+    const std::size_t n = mesh.positions.size();
+    out.indices = triangles_by_last_vertex(mesh.indices, n);
+    const std::vector<std::uint32_t> order = order_of_first_use(out.indices, n);
+    std::vector<std::uint32_t> place(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        place[order[i]] = i;
+        out.positions[i] = mesh.positions[order[i]];
+        out.normals[i] = mesh.normals[order[i]];
+    }
+    for (std::uint32_t& index : out.indices) index = place[index];
+    return out;
+}
+
 TEST(Compression, EveryStorageIsTheSameMesh) {
     for (const std::string& id : species_ids()) {
-        const Mesh mesh = mesh_of(textured(order_of(id, 0.6, 1, 1)));
+        const Mesh built = mesh_of(textured(order_of(id, 0.6, 1, 1)));
         GlbParts parts;
         parts.name = id;
         parts.image_urls = {"a.jpg", "b.jpg", "c.jpg"};
-        const std::size_t plain = size_of(glb(mesh, parts));
+        const std::size_t plain = size_of(glb(built, parts));
         for (const GlbGeometry storage : {GlbGeometry::quantized, GlbGeometry::compressed}) {
             parts.geometry = storage;
-            const Body body = glb(mesh, parts);
+            const Body body = glb(built, parts);
+            const Mesh mesh = storage == GlbGeometry::compressed ? in_file_order(built) : built;
             EXPECT_LT(size_of(body),
                       1500 + plain * (storage == GlbGeometry::quantized ? 65 : 40) / 100)
                 << id;
@@ -280,20 +298,14 @@ TEST(Compression, BothPartsOfATreeHaveOneScale) {
     const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
     const std::array<const Mesh*, 2> parts = {&meshes.bark, &meshes.leaves};
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        const Mesh& part = *parts[i];
+        const Mesh part = in_file_order(*parts[i]);
         const std::string primitive = "/meshes/0/primitives/" + std::to_string(i) + '/';
-        // Bark and leaves are numbered by first use, and are the same triangles.
-        const std::vector<std::uint32_t> order =
-            order_of_first_use(part.indices, part.positions.size());
-        std::vector<glm::vec3> positions;
-        for (const std::uint32_t k : order) positions.push_back(part.positions[k]);
         EXPECT_LE(
-            largest_difference(positions,
+            largest_difference(part.positions,
                                file.vectors(file.number(primitive + "attributes/POSITION")), scale),
             0.9 * static_cast<double>(scale));
-        std::vector<std::uint32_t> indices = file.indices(file.number(primitive + "indices"));
-        for (std::uint32_t& index : indices) index = order.at(index);
-        EXPECT_EQ(rotated(indices), rotated(part.indices)) << i;
+        EXPECT_EQ(rotated(file.indices(file.number(primitive + "indices"))), rotated(part.indices))
+            << i;
     }
 }
 
@@ -312,18 +324,6 @@ RC_GTEST_PROP(Compression, TheOrderOfFirstUseHasEachVertexOnce, ()) {
         next = std::max(next, place[index] + 1);
     }
     for (std::uint32_t i = next; i + 1 < vertices; ++i) RC_ASSERT(order[i] < order[i + 1]);
-}
-
-// Vertices along a line need fewer bits than the same in zigzag.
-TEST(Compression, BitsOfStepsCountHowFarVerticesAreApart) {
-    std::vector<Quantized16> line;
-    std::vector<std::uint32_t> zigzag;
-    for (std::uint32_t i = 0; i < 64; ++i) {
-        line.push_back({static_cast<std::int16_t>(8 * i), 0, 0, 0});
-        zigzag.push_back(i % 2 == 0 ? i : 63 - i);
-    }
-    EXPECT_EQ(bits_of_steps(line, {}), 8u * 4u);
-    EXPECT_GT(bits_of_steps(line, zigzag), bits_of_steps(line, {}));
 }
 
 // Leaves of a tree, each with a size and a breadth of its own.

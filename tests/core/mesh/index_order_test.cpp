@@ -1,10 +1,13 @@
 #include "core/mesh/index_order.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <utility>
+#include <vector>
 
 #include "core/grow/mushroom.h"
 #include "core/math/random.h"
@@ -89,6 +92,25 @@ TEST(IndexOrder, AppliesToEveryMushroom) {
             // Segments are tubes, which are built almost in this order.
             EXPECT_LT(misses(drawn), std::max(0.9 * misses(body), 0.75)) << id << " at LOD " << lod;
         }
+}
+
+RC_GTEST_PROP(IndexOrder, ByLastVertexKeepsTriangles, ()) {
+    const auto vertices = *rc::gen::inRange<std::uint32_t>(1, 40);
+    const auto corners = *rc::gen::container<std::vector<std::array<std::uint32_t, 3>>>(
+        rc::gen::container<std::array<std::uint32_t, 3>>(rc::gen::inRange(0U, vertices)));
+    std::vector<std::uint32_t> indices;
+    for (const auto& triangle : corners)
+        indices.insert(indices.end(), triangle.begin(), triangle.end());
+    const std::vector<std::uint32_t> ordered = triangles_by_last_vertex(indices, vertices);
+    RC_ASSERT(ordered.size() == indices.size());
+    std::vector<std::array<std::uint32_t, 3>> expected = corners;
+    std::stable_sort(expected.begin(), expected.end(), [](const auto& a, const auto& b) {
+        const auto [low_a, high_a] = std::ranges::minmax(a);
+        const auto [low_b, high_b] = std::ranges::minmax(b);
+        return std::pair(high_a, low_a) < std::pair(high_b, low_b);
+    });
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) RC_ASSERT(ordered[3 * i + k] == expected[i][k]);
 }
 
 }  // namespace
