@@ -64,7 +64,8 @@ using PaintSpec = std::vector<PaintShare>;
 /// key of its painting.
 [[nodiscard]] std::string image_key(const PaintSpec& paint_spec, ImageFormat format);
 
-/// Returns the images before encoding; those of a mix are blended from paintings that may be cached.
+/// Returns the images before encoding; those of a mix are blended from paintings that may be in the
+/// cache.
 ///
 /// throws  as painted_images()
 [[nodiscard]] RawImages raw_images(const PaintSpec& paint_spec, const ExecutionContext& execution);

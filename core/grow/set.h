@@ -156,8 +156,9 @@ void refuse_impossible_atlas(const SetSpec& spec);
 /// with as many seeds and as large images as the budget allows.
 ///
 /// throws  InvalidInput and Impossible as resolve(); Impossible as refuse_impossible_atlas(), and
-///         (paths "/draw_calls" and "/megabytes", with the least that is needed) for a budget that not even one individual
-///         of each species and age with the smallest images fits into; Cancelled
+///         (paths "/draw_calls" and "/megabytes", with the least that is needed) for a budget that
+///         not even one individual of each species and age with the smallest images fits into;
+///         Cancelled
 /// cost    one resolve() for each individual
 [[nodiscard]] SetPlan planned_set(const SetSpec& spec, const Atlas& atlas,
                                   const ExecutionContext& execution);

@@ -19,7 +19,8 @@ void refuse_in_one_file(const SetSpec& spec);
 /// the set, see set_materials.h; all levels have the images of the first.
 /// asset.extras lists the individuals: name, species, seed, age, how often the scene shows them,
 /// bounding box about their own origin, and levels with nodes, counts and coverages; with an atlas
-/// also their material and tile, beside a list of atlases with material and grid. Weights of wind are relative to the largest displacement of all.
+/// also their material and tile, beside a list of atlases with material and grid. Weights of wind
+/// are relative to the largest displacement of all.
 ///
 /// spec    levels are ascending
 /// plan    planned_set() of the spec

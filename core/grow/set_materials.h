@@ -38,8 +38,8 @@ class SetMaterials {
     /// directions.
     void move_to_tile(Mesh& mesh, const SetTile& place) const;
 
-    /// Adds the materials of all individuals to a scene, whose images are painted now or found in
-    /// the caches; these outlive the scene with this object. Of an atlas, coat and sheen that differ
+    /// Adds the materials of all individuals to a scene, which this object must outlive: it owns
+    /// their images, painted now or found in the caches. Of an atlas, coat and sheen that differ
     /// between tiles are images with a texel for each.
     ///
     /// links   if has_addresses(textures)

@@ -1,4 +1,4 @@
-// Variants of the material of a mushroom or a colony in one file: the same mesh after other weather.
+// Variants of the material of a mushroom or a colony in one file: the same mesh in other weather.
 #pragma once
 
 #include <functional>
