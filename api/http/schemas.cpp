@@ -46,7 +46,9 @@ Value levels_schema() {
         "description",
         "Longest side of the box over the height of the screen, down to which this level is "
         "drawn; below that of the last there is nothing to see.");
-    return list_of(objects({{"lod", typed("integer")},
+    Value lod = typed("number");
+    lod.set("description", "A whole level, or a place between two of them.");
+    return list_of(objects({{"lod", std::move(lod)},
                             {"vertices", typed("integer")},
                             {"triangles", typed("integer")},
                             {"screen_coverage", std::move(coverage)}}));

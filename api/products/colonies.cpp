@@ -142,7 +142,8 @@ std::string Colonies::key(const ColonySpec& spec, Product product, const std::st
 }
 
 std::string Colonies::file_name(const ColonySpec& spec, Product product, const Atlas&) {
-    return sporeprint::file_name(product_name(spec), spec.params.lod, spec.params.file) +
+    return sporeprint::file_name(product_name(spec), spec.params.lod, spec.params.triangles,
+                                 spec.params.file) +
            ending_of(product);
 }
 
@@ -168,8 +169,12 @@ std::uint64_t Colonies::instances_of_each(const ColonySpec& spec) {
     return static_cast<std::uint64_t>((count + distinct - 1) / distinct);
 }
 
-ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec, const std::string&,
-                               const ExecutionContext& execution) {
+ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec,
+                               const std::string& version, const ExecutionContext& execution) {
+    if (spec.params.triangles) {
+        const Individual typical = typical_individual(spec, *context.atlas, execution.caches);
+        return image_urls(context, at_level(spec, typical, *context.atlas), version, execution);
+    }
     return variant_urls(context, spec, paint_mushroom_spec(spec), execution);
 }
 
@@ -190,14 +195,15 @@ Body Colonies::grow(const Context& context, const ColonySpec& spec, Resolved& re
     return grow_colony(spec, typical, *context.atlas, extras, execution).glb;
 }
 
-Value Colonies::describe(const Context& context, const ColonySpec& spec, Resolved& resolved,
+Value Colonies::describe(const Context& context, const ColonySpec& requested, Resolved& resolved,
                          const std::string& version, const ExecutionContext& execution) {
     execution.observer(Step::resolve);
-    const Individual& typical = resolved_individual(context, spec, execution.caches, resolved);
+    const Individual& typical = resolved_individual(context, requested, execution.caches, resolved);
+    const ColonySpec spec = at_level(requested, typical, *context.atlas);
     const Colony colony = colony_parts(spec, typical, *context.atlas, execution);
     execution.observer(Step::pack);
     Value body = Value::object();
-    body.set("canonical", canonical_address(spec, Product::glb));
+    body.set("canonical", canonical_address(requested, Product::glb));
     body.set("v", version);
     body.set("mix", mix_value(spec.mix));
     body.set("made", std::uint64_t{colony.members.size()});

@@ -12,6 +12,7 @@
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/collision.h"
+#include "core/grow/levels.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"
@@ -158,13 +159,21 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
     return cost;
 }
 
+/// Returns about the number of triangles of a mushroom at an LOD.
+double usual_triangles(int lod) { return static_cast<double>(24'000 >> (2 * lod)); }
+
 /// Returns an approximate estimate of a request whose individual is not resolved yet.
 Estimate guessed(const MushroomSpec& spec) {
     const MushroomParams& params = spec.params;
-    const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
+    const int first =
+        params.triangles ? nearest_level(*params.triangles, usual_triangles) : params.lod;
+    const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> first;
     Estimate guess;
-    for (const int lod : levels_in_file(params.lod, params.file))
+    for (const int lod : levels_in_file(first, params.file)) {
         guess.vertices += std::uint64_t{12'000} >> (2 * lod);
+        // Where a file has several levels, there is one between this one and the next.
+        if (params.file.lods != Lods::single) guess.vertices += std::uint64_t{6'000} >> (2 * lod);
+    }
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     guess.bytes =
@@ -220,7 +229,8 @@ std::string Mushrooms::key(const MushroomSpec& spec, Product product, const std:
 }
 
 std::string Mushrooms::file_name(const MushroomSpec& spec, Product product, const Atlas&) {
-    return sporeprint::file_name(product_name(spec), spec.params.lod, spec.params.file) +
+    return sporeprint::file_name(product_name(spec), spec.params.lod, spec.params.triangles,
+                                 spec.params.file) +
            ending_of(product);
 }
 

@@ -64,6 +64,18 @@ typename Kind::Params own_params(const Atlas& atlas, std::string_view id) {
     return params_of(*Kind::find(atlas, id));
 }
 
+/// Replaces a number of triangles by the level of detail that it chooses, so that equal files have
+/// one canonical URL. What is impossible is left to the estimate, which reports it.
+template <class Kind>
+void choose_level(typename Kind::Spec& spec, const ValidationErrors& errors) {
+    if (!errors.empty()) return;
+    try {
+        spec = at_level(spec);
+    } catch (const InvalidInput&) {
+        return;
+    }
+}
+
 /// Reads the {preset} and the query of a URL. Problems are added to `errors`.
 template <class Kind>
 PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view id, Query query,
@@ -80,6 +92,7 @@ PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view id, Query q
     without_negative_zero(request.spec.params);
     if constexpr (requires { Kind::settle(request.spec.params); })
         Kind::settle(request.spec.params);
+    choose_level<Kind>(request.spec, errors);
     return request;
 }
 
@@ -113,6 +126,7 @@ PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view body,
     without_negative_zero(request.spec.params);
     if constexpr (requires { Kind::settle(request.spec.params); })
         Kind::settle(request.spec.params);
+    choose_level<Kind>(request.spec, errors);
     return request;
 }
 
@@ -229,7 +243,8 @@ struct PresetProduct {
         return key_of<Kind>(spec, product, version);
     }
     static std::string file_name(const Spec& spec, Product product, const Atlas& atlas) {
-        return sporeprint::file_name(product_name(spec, atlas), spec.params.lod, spec.params.file) +
+        return sporeprint::file_name(product_name(spec, atlas), spec.params.lod,
+                                     spec.params.triangles, spec.params.file) +
                ending_of(product);
     }
 

@@ -58,7 +58,7 @@ constexpr std::uint64_t most_archive_bytes = 256'000'000;
 
 /// Parameters of a mushroom that a set chooses itself, and what a client gives instead.
 constexpr std::pair<const char*, const char*> chosen[] = {
-    {"seed", "first_seed and seeds"}, {"age", "ages"}, {"lod", "levels"}};
+    {"seed", "first_seed and seeds"}, {"age", "ages"}, {"lod", "levels"}, {"triangles", "levels"}};
 
 /// Reads the species of a set: a list of mixes as they stand in URLs.
 std::vector<Mix> read_species(const Value& body, const Atlas& atlas, ValidationErrors& errors,

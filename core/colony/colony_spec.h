@@ -71,6 +71,7 @@ struct ColonyParams {
     std::optional<double> trunk_radius;
     ColonyRootsOf<Maybe> growth;
     int lod = 0;
+    std::optional<int> triangles;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     ImageShare share = ImageShare::individual;
@@ -124,6 +125,7 @@ struct ColonyParams {
                                      .group = "placement"});
         visit(&P::growth, Info{.name = ""});
         visit(&P::lod, info_of<M>("lod"));
+        visit(&P::triangles, triangles_info);
         visit(&P::texture_size, info_of<M>("texture_size"));
         visit(&P::textures, info_of<M>("textures"));
         visit(&P::share, share_info);
@@ -132,6 +134,10 @@ struct ColonyParams {
         visit(&P::instancing,
               Info{.name = "instancing",
                    .doc = "How a mesh is repeated: by nodes, or by EXT_mesh_gpu_instancing."});
+    }
+    /// Refuses two parameters that choose the level of detail.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        refuse_two_levels(*this, path, problems);
     }
     bool operator==(const ColonyParams&) const = default;
 };

@@ -67,7 +67,7 @@ Attachment::FacePoint Attachment::nearest_vertex(double share, double angle) con
     for (std::size_t i = 1; i + 1 < flesh_.size(); ++i)
         if (std::abs(flesh_[i].share - share) < std::abs(nearest - share))
             nearest = flesh_[i].share;
-    const double column = 2.0 * pi / detail_of(context.lod).columns;
+    const double column = 2.0 * pi / detail_of(context.level).columns;
     return {nearest, column * std::floor(angle / column + 0.5)};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/geometry/branches.h"
@@ -36,6 +37,26 @@ constexpr std::array<double, 5> sufficient_share = {0.9, 0.5, 0.0, 0.0, 0.0};
 constexpr std::uint64_t most_at_farthest = 150;
 /// Number of tips from which on a tube counts as thick.
 constexpr int thick_tube_tips = 12;
+
+/// The resolutions among which a level of detail chooses.
+struct Resolutions {
+    std::size_t first, last;
+    double sufficient_share;
+};
+
+/// Returns the resolutions of a level: between two whole ones means of theirs, rounded to the
+/// coarser, because the triangle limit is lower than at the finer one.
+Resolutions resolutions_at(DetailLevel level) {
+    const auto row = static_cast<std::size_t>(level.lod);
+    if (level.is_whole()) return {first_step[row], last_step[row], sufficient_share[row]};
+    const double further = static_cast<double>(level.eighths) / DetailLevel::steps;
+    const auto mean = [&](const auto& table) {
+        const auto from = static_cast<double>(table[row]), to = static_cast<double>(table[row + 1]);
+        return from + further * (to - from);
+    };
+    return {static_cast<std::size_t>(std::ceil(mean(first_step))),
+            static_cast<std::size_t>(std::ceil(mean(last_step))), mean(sufficient_share)};
+}
 
 std::vector<TubeChain> chains_of(const BranchGraph& graph) {
     std::vector<TubeChain> chains;
@@ -136,10 +157,10 @@ bool is_present(const BranchGraph& graph, const TubeChain& chain) {
     return graph.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
-BranchPlan branch_plan(const BranchGraph& graph, int lod) {
-    const auto level = static_cast<std::size_t>(lod);
+BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level) {
+    const Resolutions allowed = resolutions_at(level);
     const std::uint64_t limit =
-        lod < farthest_lod ? most_triangles[level] : std::uint64_t{most_at_farthest};
+        level.lod < farthest_lod ? triangle_limit(level) : std::uint64_t{most_at_farthest};
     BranchPlan plan;
     plan.chains = chains_of(graph);
     // For each node its chain, and its index there.
@@ -158,7 +179,7 @@ BranchPlan branch_plan(const BranchGraph& graph, int lod) {
         return graph.nodes[fork].parent == none ? nullptr : &places[fork];
     };
     std::size_t retained = 0;
-    for (std::size_t step = first_step[level]; step <= last_step[level]; ++step) {
+    for (std::size_t step = allowed.first; step <= allowed.last; ++step) {
         plan.detail = detail_steps[step];
         plan.count = {};
         for (retained = 0; retained < plan.chains.size(); ++retained) {
@@ -175,7 +196,7 @@ BranchPlan branch_plan(const BranchGraph& graph, int lod) {
             plan.count.triangles += one.triangles;
         }
         if (static_cast<double>(retained) >=
-            sufficient_share[level] * static_cast<double>(plan.chains.size()))
+            allowed.sufficient_share * static_cast<double>(plan.chains.size()))
             break;
     }
     plan.chains.resize(retained);
@@ -185,8 +206,8 @@ BranchPlan branch_plan(const BranchGraph& graph, int lod) {
     return plan;
 }
 
-MeshCount branched_mesh_count(const BranchGraph& graph, int lod, bool keep_absent) {
-    const BranchPlan plan = branch_plan(graph, lod);
+MeshCount branched_mesh_count(const BranchGraph& graph, DetailLevel level, bool keep_absent) {
+    const BranchPlan plan = branch_plan(graph, level);
     MeshCount count = plan.count;
     if (keep_absent) return count;
     for (const TubeChain& chain : plan.chains)

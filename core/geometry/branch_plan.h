@@ -48,11 +48,11 @@ struct BranchPlan {
     MeshCount count;
 };
 
-/// Returns the tubes that are built at a level of detail, 0..3: the finest resolution within the
+/// Returns the tubes that are built at a level of detail: the finest resolution within the
 /// triangle limit that keeps enough of them; those with fewest tips are dropped first.
 ///
 /// cost  O(nodes log nodes)
-[[nodiscard]] BranchPlan branch_plan(const BranchGraph& graph, int lod);
+[[nodiscard]] BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level);
 
 /// Returns the sides of a tube as species of many segments draw it.
 [[nodiscard]] int tube_sides(const TubeChain& chain, const TubeDetail& detail);

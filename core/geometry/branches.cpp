@@ -157,11 +157,11 @@ BranchGraph deformed(const Individual& individual) {
 
 class TubeBuilder {
   public:
-    TubeBuilder(const Individual& individual, int lod, const SweepOptions& options)
+    TubeBuilder(const Individual& individual, DetailLevel level, const SweepOptions& options)
         : graph_(deformed(individual)),
-          plan_(branch_plan(graph_, lod)),
+          plan_(branch_plan(graph_, level)),
           seed_(individual.effective.seed),
-          full_disc_(lod < 2),
+          full_disc_(level < 2),
           options_(options),
           represented_(graph_.nodes.size(), 1.0),
           built_(graph_.nodes.size()) {
@@ -671,8 +671,8 @@ class TubeBuilder {
 
 }  // namespace
 
-Mesh branched_mesh(const Individual& individual, int lod, const SweepOptions& options) {
-    return TubeBuilder(individual, lod, options).build();
+Mesh branched_mesh(const Individual& individual, DetailLevel level, const SweepOptions& options) {
+    return TubeBuilder(individual, level, options).build();
 }
 
 }  // namespace sporeprint

@@ -12,13 +12,13 @@
 
 namespace sporeprint {
 
-/// Returns the exact counts of branched_mesh() at a level of detail, 0..3. The vertex count follows
+/// Returns the exact counts of branched_mesh() at a level of detail. The vertex count follows
 /// from species and seed alone: no age and no weight changes it. Triangles are counted for segments
 /// that are present or, with `keep_absent`, for all segments, as for vertices.
-[[nodiscard]] MeshCount branched_mesh_count(const BranchGraph& graph, int lod,
+[[nodiscard]] MeshCount branched_mesh_count(const BranchGraph& graph, DetailLevel level,
                                             bool keep_absent = false);
 
-/// Returns the mesh of a branched individual at a level of detail, 0..3.
+/// Returns the mesh of a branched individual at a level of detail.
 ///
 /// Branches use the chart of the cap, with tips at its pole; trunks use the chart of the stem.
 /// Where the triangle limit is low, the tubes with the fewest tips are dropped first, and the
@@ -28,7 +28,7 @@ namespace sporeprint {
 /// returns   closed pieces, one per tip, which intersect each other only at forks
 /// throws    Impossible ("/deformation/bend_deg") if the bend would make the graph intersect itself
 /// cost      O(vertices)
-[[nodiscard]] Mesh branched_mesh(const Individual& individual, int lod,
+[[nodiscard]] Mesh branched_mesh(const Individual& individual, DetailLevel level,
                                  const SweepOptions& options = {});
 
 }  // namespace sporeprint

@@ -1,6 +1,7 @@
 #include "core/geometry/budget.h"
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "core/geometry/hymenium.h"
@@ -17,20 +18,20 @@ MeshCount& operator+=(MeshCount& sum, const MeshCount& more) {
     return sum;
 }
 
-MeshCount body_count(const Individual& individual, int lod) {
-    const Detail& detail = detail_of(lod);
-    const WeatheringCount weathered = weathering_count(individual, lod);
+MeshCount body_count(const Individual& individual, DetailLevel level, bool solids) {
+    const Detail detail = detail_of(level);
+    const WeatheringCount weathered = weathering_count(individual, level);
     const bool lower_face = !individual.outline.hymenium.empty();
     const auto rings =
         static_cast<std::uint64_t>(detail.stem_rings + (lower_face ? detail.hymenium_rings : 0) +
-                                   flesh_rings(individual, lod) + detail.cap_rings);
+                                   flesh_rings(individual, level, solids) + detail.cap_rings);
     // Rings of one face are joined by quads, and by triangles at either pole.
     return {rings * (weathered.columns + 1) + weathered.vertices,
             2 * (rings - (lower_face ? 4 : 3)) * weathered.columns + weathered.triangles};
 }
 
 /// Makes the detail one step coarser; returns false when no step is left.
-bool coarsen(Detail& detail, int lod) {
+bool coarsen(Detail& detail, DetailLevel level) {
     struct Step {
         int Detail::*count;
         int least;
@@ -41,28 +42,32 @@ bool coarsen(Detail& detail, int lod) {
                                                   {&Detail::patch_sides, 3}}};
     static constexpr std::array<Step, 2> middle = {
         {{&Detail::patch_sides, 3}, {&Detail::sac_rings, 4}}};
-    if (lod > 1) return false;
-    for (const Step& step : lod == 0 ? std::span<const Step>(near) : std::span<const Step>(middle))
+    if (level.lod > 1) return false;
+    for (const Step& step :
+         level.lod == 0 ? std::span<const Step>(near) : std::span<const Step>(middle))
         if (detail.*step.count > step.least) {
             --(detail.*step.count);
             return true;
         }
-    if (lod == 0 || detail.patches <= 0.0) return false;
+    return false;
+}
+
+/// Leaves out a further eighth of the patches, the smallest ones; returns false when none is left.
+bool drop_patches(Detail& detail, DetailLevel level) {
+    if (level == 0 || level.lod > 1 || detail.patches <= 0.0) return false;
     detail.patches -= 0.125;
     return true;
 }
 
-}  // namespace
-
-Budget budget_of(const Individual& individual, int lod) {
+Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     Budget budget;
-    budget.ornaments = detail_of(lod);
-    const bool solids = has_solids(lod) && !individual.outline.hymenium.empty();
+    budget.ornaments = detail_of(level);
+    budget.solids = solids;
     if (solids) {
         budget.cells = cell_budget(individual);
         budget.blades = blade_budget(individual, budget.cells.pores > 0);
     }
-    const MeshCount body = body_count(individual, lod);
+    const MeshCount body = body_count(individual, level, solids);
     const auto total = [&] {
         MeshCount count = body;
         count += ornament_count(individual, budget.ornaments);
@@ -73,10 +78,28 @@ Budget budget_of(const Individual& individual, int lod) {
         return count;
     };
     budget.count = total();
-    const std::uint64_t limit = at_level(most_triangles, lod);
+    const std::uint64_t limit = triangle_limit(level);
     while (budget.count.triangles > limit &&
-           (coarsen(budget.ornaments, lod) || (solids && coarsen(individual, budget.blades))))
+           (coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
+            (!solids && drop_patches(budget.ornaments, level))))
         budget.count = total();
+    return budget;
+}
+
+}  // namespace
+
+std::uint64_t triangle_limit(DetailLevel level) {
+    const auto from = static_cast<double>(at_level(most_triangles, level.lod));
+    if (level.is_whole()) return static_cast<std::uint64_t>(from);
+    const auto to = static_cast<double>(at_level(most_triangles, level.lod + 1));
+    return static_cast<std::uint64_t>(std::floor(between(from, to, level)));
+}
+
+Budget budget_of(const Individual& individual, DetailLevel level) {
+    const bool solids = has_solids(level) && !individual.outline.hymenium.empty();
+    Budget budget = budget_of(individual, level, solids);
+    if (solids && !level.is_whole() && budget.count.triangles > triangle_limit(level))
+        return budget_of(individual, level, false);
     return budget;
 }
 

@@ -11,7 +11,7 @@
 
 namespace sporeprint {
 
-/// Largest number of triangles of a mushroom, by LOD.
+/// Largest number of triangles of a mushroom, by whole LOD.
 inline constexpr std::array<std::uint64_t, 4> most_triangles = {60000, 6000, 1200, 256};
 
 /// Triangle budget of one individual. It follows from the set of species alone: no age and no
@@ -20,15 +20,20 @@ struct Budget {
     Detail ornaments;  ///< resolution of patches and shells; coarser in a large set
     CellBudget cells;  ///< of the hymenium; zero where it is painted only
     BladeBudget blades;
-    MeshCount count;  ///< exact counts when everything is present
+    bool solids = false;  ///< whether the hymenium is built as solids
+    MeshCount count;      ///< exact counts when everything is present
 };
+
+/// Returns the largest number of triangles at a level of detail.
+[[nodiscard]] std::uint64_t triangle_limit(DetailLevel level);
 
 /// Returns the budget of an individual at a level of detail. A set that exceeds `most_triangles` is
 /// coarsened step by step, least visible detail first: corners and rings of patches, rows of
 /// shells, short blades between others, cross veins, rows of blades; at the next level the smaller
-/// patches themselves, which are painted then.
+/// patches themselves, which are painted then. Between LOD 0 and 1 the hymenium is painted only if the
+/// fewest of its solids exceed the limit.
 ///
-/// cost  a few microseconds; 0.1 ms at LOD 0, where blades are counted one by one
-[[nodiscard]] Budget budget_of(const Individual& individual, int lod);
+/// cost  a few microseconds; 0.1 ms above LOD 1, where blades are counted one by one
+[[nodiscard]] Budget budget_of(const Individual& individual, DetailLevel level);
 
 }  // namespace sporeprint

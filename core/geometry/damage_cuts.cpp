@@ -61,10 +61,10 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
 
 }  // namespace
 
-MarginCuts::MarginCuts(const Individual& individual, int lod) {
+MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
     const Outline& outline = individual.outline;
     const WeatheringOf<Plain>& amounts = individual.damage.amounts;
-    const LodLimits& limits = at_level(limits_by_lod, lod);
+    const LodLimits& limits = at_level(limits_by_lod, level);
     std::vector<Notch> notches;
     if (!outline.hymenium.empty()) {
         notches = notches_of(individual, limits);
@@ -84,7 +84,7 @@ MarginCuts::MarginCuts(const Individual& individual, int lod) {
         melted_ = melted(amounts.deliquescence) * cap_length_;
         phase_ = Random(individual.painted_seed, purposes::ragged).uniform(0.0, whole_turn);
     }
-    place_columns(notches, amounts, limits.inside, detail_of(lod).columns);
+    place_columns(notches, amounts, limits.inside, detail_of(level).columns);
     placed_turns_ = turns_;
     const auto turn_of = [this](std::size_t k) { return k == turns_.size() ? 1.0 : turns_[k]; };
     for (const InsertedColumn& column : inserted_) {

@@ -8,6 +8,7 @@
 
 #include "core/individual/damage.h"
 #include "core/individual/individual.h"
+#include "core/mesh/detail.h"
 
 namespace sporeprint {
 
@@ -28,7 +29,7 @@ class MarginCuts {
     static constexpr double collapsed_width = 0.02;
 
     /// cost  about 20 us; constructed once per mesh
-    MarginCuts(const Individual& individual, int lod);
+    MarginCuts(const Individual& individual, DetailLevel level);
 
     /// Returns true when no cut is open.
     [[nodiscard]] bool none() const { return open_.empty() && melted_ <= 0.0; }

@@ -22,7 +22,7 @@ constexpr double whole_turn = 2.0 * pi;
 // Numbers of solids by LOD.
 constexpr std::array<SolidCounts, 4> limits_by_lod = {
     {{5, 14, 22, 12}, {0, 0, 0, 6}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
-const SolidCounts& limits_at(int lod) { return at_level(limits_by_lod, lod); }
+const SolidCounts& limits_at(DetailLevel level) { return at_level(limits_by_lod, level); }
 
 constexpr int roll_sides = 5, drop_sides = 6, drip_sides = 5, drip_rows = 4;
 constexpr std::uint64_t roll_vertices(int pieces) {
@@ -39,8 +39,8 @@ constexpr std::uint64_t drip_triangles = 2 * (drip_rows - 1) * drip_sides + 2 * 
 
 }  // namespace
 
-MeshCount damage_solid_count(const Individual& individual, int lod) {
-    const SolidCounts& limits = limits_at(lod);
+MeshCount damage_solid_count(const Individual& individual, DetailLevel level) {
+    const SolidCounts& limits = limits_at(level);
     MeshCount count;
     const auto solids = [&](int number, std::uint64_t vertices, std::uint64_t triangles) {
         count.vertices += static_cast<std::uint64_t>(number) * vertices;
@@ -54,11 +54,11 @@ MeshCount damage_solid_count(const Individual& individual, int lod) {
 }
 
 DamageSolids::DamageSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual,
-                           const MarginCuts& cuts, int lod, bool keep_absent)
+                           const MarginCuts& cuts, DetailLevel level, bool keep_absent)
     : mesh_(mesh),
       cap_(cap),
       individual_(individual),
-      limits_(limits_at(lod)),
+      limits_(limits_at(level)),
       amounts_(individual.damage.amounts),
       cuts_(cuts),
       keep_absent_(keep_absent),

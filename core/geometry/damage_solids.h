@@ -20,7 +20,7 @@ struct SolidCounts {
 };
 
 /// Returns the vertex and triangle counts when all of them are present; no amount changes them.
-[[nodiscard]] MeshCount damage_solid_count(const Individual& individual, int lod);
+[[nodiscard]] MeshCount damage_solid_count(const Individual& individual, DetailLevel level);
 
 /// Appends these solids to the mesh of a swept body, each kind where the individual can have it and
 /// the level of detail includes it.
@@ -31,7 +31,7 @@ class DamageSolids {
     /// cap          grid of the cap in the mesh; its columns are those of the cuts
     /// keep_absent  whether triangles of absent solids are emitted, with zero area
     DamageSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual,
-                 const MarginCuts& cuts, int lod, bool keep_absent);
+                 const MarginCuts& cuts, DetailLevel level, bool keep_absent);
 
     /// Appends cuticle rolled back along the border of peeled areas. pre: the cap is where it was
     /// swept

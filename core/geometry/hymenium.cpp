@@ -36,20 +36,20 @@ double distance_to(const std::vector<OutlineSample>& line, double r, double y, d
 
 }  // namespace
 
-int flesh_rings(const Individual& individual, int lod) {
+int flesh_rings(const Individual& individual, DetailLevel level, bool solids) {
     const bool carries =
         std::any_of(individual.parts.begin(), individual.parts.end(), [](const SpeciesShare& part) {
             return part.model.surface.hymenium.pattern != HymeniumPattern::smooth;
         });
-    if (!has_solids(lod) || individual.outline.hymenium.empty() || !carries) return 0;
+    if (!solids || !has_solids(level) || individual.outline.hymenium.empty() || !carries) return 0;
     return static_cast<int>(steep_places.size());
 }
 
-LowerFace::LowerFace(const Individual& individual, int lod) {
+LowerFace::LowerFace(const Individual& individual, DetailLevel level, bool solids) {
     const SubCurve& curve = individual.outline.hymenium;
     if (curve.empty()) return;
     length_ = curve.length();
-    has_solids_ = flesh_rings(individual, lod) > 0;
+    has_solids_ = flesh_rings(individual, level, solids) > 0;
     std::vector<OutlineSample> line;
     for (int i = 0; i <= stations; ++i) line.push_back(curve.at(static_cast<double>(i) / stations));
     const auto cap = individual.outline.rings(CurveName::cap, 0);
@@ -84,7 +84,7 @@ LowerFace::LowerFace(const Individual& individual, int lod) {
                 groove += deep * (1.0 - cell_depth(hymenium, share));
         }
         // Tubes fill the outline itself, except in the groove round the stem.
-        if (!has_solids(lod)) wanted = 0.0;
+        if (!solids || !has_solids(level)) wanted = 0.0;
         const double most = usable_share * available;
         place.recess = std::min(wanted + groove, most);
         place.scale = wanted > 0.0 ? std::min(1.0, place.recess / (wanted + groove)) : 0.0;
@@ -128,8 +128,8 @@ LowerFace::Place LowerFace::at(double share) const {
     return place;
 }
 
-std::vector<OutlineSample> LowerFace::flesh(const Outline& outline, int lod) const {
-    std::vector<OutlineSample> rings = outline.rings(CurveName::hymenium, lod);
+std::vector<OutlineSample> LowerFace::flesh(const Outline& outline, DetailLevel level) const {
+    std::vector<OutlineSample> rings = outline.rings(CurveName::hymenium, level);
     if (!has_solids_) return rings;
     for (const double place : steep_places) rings.push_back(outline.hymenium.at(place));
     std::sort(rings.begin() + 1, rings.end(),

@@ -12,11 +12,14 @@ namespace sporeprint {
 
 struct Budget;
 
-/// Returns true when a level of detail has the hymenium as solids; coarser levels only paint it.
-[[nodiscard]] constexpr bool has_solids(int lod) { return lod == 0; }
+/// Returns true when a level of detail may have the hymenium as solids; coarser levels only paint
+/// it. LOD 0 always has them; Budget::solids says so of the levels between it and LOD 1.
+[[nodiscard]] constexpr bool has_solids(DetailLevel level) { return level.lod == 0; }
 
 /// Returns the number of extra rings of the flesh, which rises steeply between gills.
-[[nodiscard]] int flesh_rings(const Individual& individual, int lod);
+///
+/// solids  whether they are built where the level may have them
+[[nodiscard]] int flesh_rings(const Individual& individual, DetailLevel level, bool solids = true);
 
 /// The lower face of an individual. Its outline is where the edges of the gills lie; the flesh is
 /// recessed by the depth of the blades, at most by a fixed fraction of the room under the cap. So
@@ -24,11 +27,12 @@ struct Budget;
 /// same silhouette.
 class LowerFace {
   public:
-    LowerFace(const Individual& individual, int lod);
+    /// solids  whether they are built where the level may have them
+    LowerFace(const Individual& individual, DetailLevel level, bool solids = true);
 
     /// Returns the rings of the lower face at a level of detail, displaced from the edges of the
     /// blades to the flesh between them.
-    [[nodiscard]] std::vector<OutlineSample> flesh(const Outline& outline, int lod) const;
+    [[nodiscard]] std::vector<OutlineSample> flesh(const Outline& outline, DetailLevel level) const;
 
     /// A place on the meridian, from 0 at the stem to 1 at the margin.
     struct Place {

@@ -254,7 +254,7 @@ LayerPlace place_of(const PatchLayer& layer, const OrnamentContext& context) {
     // An outline with fewer corners is widened, so that it covers the same area.
     const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
     return {on_stem, curve, on_stem ? curve.segment_shares() : std::vector<double>{},
-            context.outline.rings(on_stem ? CurveName::stem : CurveName::cap, context.lod),
+            context.outline.rings(on_stem ? CurveName::stem : CurveName::cap, context.level),
             std::sqrt(covered(details[0].patch_sides) / covered(context.detail.patch_sides))};
 }
 
@@ -268,7 +268,7 @@ PatchFrame frame_of(const Patch& patch, const PatchLayer& layer, const LayerPlac
     // piece would be hidden under it, or float above.
     const SurfacePoint point =
         context.rest_surface.meshed(place.on_stem ? Part::stem : Part::cap, place.rings,
-                                    detail_of(context.lod).columns, at.share, patch.theta);
+                                    detail_of(context.level).columns, at.share, patch.theta);
     glm::dvec3 normal = glm::cross(point.meridian, point.azimuth), meridian = point.meridian;
     if (!context.rest_surface.plain()) {
         normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));

@@ -15,7 +15,7 @@ struct OrnamentContext {
     const Deformer& deformer;
     const RestSurface& rest_surface;
     const Detail& detail;
-    int lod;
+    DetailLevel level;
     std::uint32_t seed;
     bool textured;
     bool keep_absent;        ///< whether ornaments of size 0 keep their triangles

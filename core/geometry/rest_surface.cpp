@@ -8,9 +8,9 @@
 
 namespace sporeprint {
 
-RestSurface::RestSurface(const Individual& individual, const Detail& detail)
+RestSurface::RestSurface(const Individual& individual, const Detail& detail, const Detail& carrier)
     : outline_(individual.outline),
-      relief_(individual, detail),
+      relief_(individual, carrier),
       waves_(individual.waves, greatest_radius(individual.outline.cap), detail.columns,
              individual.effective.seed),
       azimuth_(individual, detail.columns) {}

@@ -14,8 +14,11 @@ namespace sporeprint {
 /// before a fan turns them to its front.
 class RestSurface {
   public:
-    /// detail  of the mesh; sources too fine for its columns and rings are left out
-    RestSurface(const Individual& individual, const Detail& detail);
+    /// detail   of the mesh; sources too fine for its columns and rings are left out
+    /// carrier  the same for relief alone
+    RestSurface(const Individual& individual, const Detail& detail, const Detail& carrier);
+    RestSurface(const Individual& individual, const Detail& detail)
+        : RestSurface(individual, detail, detail) {}
 
     /// Everything that depends on the angle alone.
     struct Column {

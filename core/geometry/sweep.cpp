@@ -16,6 +16,7 @@
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/mesh/measure.h"
+#include "core/params/messages.h"
 #include "core/problems.h"
 #include "core/surface/charts.h"
 
@@ -211,15 +212,18 @@ void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) c
     for (glm::dvec3& place : places) place = station.point(place);
 }
 
-Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& options) {
+Mesh swept_mesh(const Individual& individual, DetailLevel level, const SweepOptions& options) {
     const Outline& outline = individual.outline;
-    const Detail& detail = detail_of(lod);
+    const Detail detail = detail_of(level);
     const std::uint32_t seed = individual.painted_seed;
     const Deformer deformer(individual);
-    const RestSurface rest_surface(individual, detail);
-    const MarginCuts cuts(individual, lod);
+    // Images have the relief that the mesh of their level does not carry, so that a finer mesh must
+    // not carry more.
+    const RestSurface rest_surface(individual, detail,
+                                   detail_of(std::max(level, DetailLevel(level.nearest()))));
+    const MarginCuts cuts(individual, level);
     Mesh mesh;
-    const Budget budget = budget_of(individual, lod);
+    const Budget budget = budget_of(individual, level);
     const auto vertices = static_cast<std::size_t>(budget.count.vertices);
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
@@ -232,24 +236,24 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     Sweeper sweeper(mesh, deformer, rest_surface, cuts.turns(), options.textured);
     body.stem = sweeper.face(
         Part::stem, options.stem.empty()
-                        ? outline.rings(CurveName::stem, lod)
+                        ? outline.rings(CurveName::stem, level)
                         : std::vector<OutlineSample>(options.stem.begin(), options.stem.end()));
-    const LowerFace lower(individual, lod);
-    body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, lod));
-    body.cap = sweeper.face(Part::cap, outline.rings(CurveName::cap, lod));
+    const LowerFace lower(individual, level, budget.solids);
+    body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, level));
+    body.cap = sweeper.face(Part::cap, outline.rings(CurveName::cap, level));
     // A sheet a metre wide would be thinner than its dents on the mesh; no species of the atlas is
     // one.
     if (individual.parts.front().id.empty() && volume(mesh) <= 0.0)
         throw Impossible("/model/silhouette",
                          "so thin for its width that dents turn it inside out at level of detail " +
-                             std::to_string(lod));
-    const Curl curl = weather(mesh, body, individual, cuts, lod, options.keep_absent);
+                             number_text(level.number()));
+    const Curl curl = weather(mesh, body, individual, cuts, level, options.keep_absent);
     const Dents dents(individual);
     const OrnamentContext context{outline,
                                   deformer,
                                   rest_surface,
                                   budget.ornaments,
-                                  lod,
+                                  level,
                                   seed,
                                   options.textured,
                                   options.keep_absent,
@@ -260,7 +264,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     add_patches(mesh, individual, context);
     add_ring(mesh, individual, context);
     add_sac(mesh, individual, context);
-    if (has_solids(lod)) add_hymenium(mesh, individual, lower, context, budget);
+    if (budget.solids) add_hymenium(mesh, individual, lower, context, budget);
     return mesh;
 }
 

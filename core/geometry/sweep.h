@@ -62,7 +62,7 @@ struct SweepOptions {
     std::span<const OutlineSample> stem = {};
 };
 
-/// Returns the mesh of an individual at a level of detail, 0..3.
+/// Returns the mesh of an individual at a level of detail.
 ///
 /// returns   a closed mesh, rings from base to apex; the last column of each ring repeats the
 ///           positions of column 0 bit for bit. Number and order of the vertices depend only on the
@@ -71,7 +71,7 @@ struct SweepOptions {
 ///           turn it inside out
 /// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by
 ///           meridian arc length, so that they never fold
-[[nodiscard]] Mesh swept_mesh(const Individual& individual, int lod,
+[[nodiscard]] Mesh swept_mesh(const Individual& individual, DetailLevel level,
                               const SweepOptions& options = {});
 
 }  // namespace sporeprint

@@ -27,24 +27,24 @@ struct LodLimits {
 };
 constexpr std::array<LodLimits, 4> limits_by_lod = {
     {{true, true, true}, {true, true, false}, {true, false, false}, {false, false, false}}};
-const LodLimits& limits_at(int lod) { return at_level(limits_by_lod, lod); }
+const LodLimits& limits_at(DetailLevel level) { return at_level(limits_by_lod, level); }
 
 /// Applies weathering to the vertices of a swept body.
 class Weatherer {
   public:
     Weatherer(Mesh& mesh, const SweptBody& body, const Individual& individual,
-              const MarginCuts& cuts, int lod, bool keep_absent)
+              const MarginCuts& cuts, DetailLevel level, bool keep_absent)
         : mesh_(mesh),
           body_(body),
           individual_(individual),
-          limits_(limits_at(lod)),
+          limits_(limits_at(level)),
           amounts_(individual.damage.amounts),
           cuts_(cuts),
-          lod_(lod),
+          level_(level),
           keep_absent_(keep_absent),
           textured_(!mesh.texture_coordinates.empty()),
           columns_(cuts.turns().size()),
-          solids_(mesh, body.cap, individual, cuts, lod, keep_absent) {
+          solids_(mesh, body.cap, individual, cuts, level, keep_absent) {
         for (const double turn : cuts.turns()) turns_.push_back(sine_cosine(whole_turn * turn));
         openness_.assign(columns_ + 1, 1.0);
         even_.assign(columns_ + 1, true);
@@ -260,7 +260,7 @@ class Weatherer {
     // vertex happens to lie in it.
     [[nodiscard]] double carried_pit(double size, double length, const DamageSpot& spot,
                                      const SubCurve& curve, bool stem) const {
-        const Detail& detail = detail_of(lod_);
+        const Detail& detail = detail_of(level_);
         const double ring = length / ((stem ? detail.stem_rings : detail.cap_rings) - 1);
         const double round =
             whole_turn * curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r / detail.columns;
@@ -472,7 +472,7 @@ class Weatherer {
     const LodLimits& limits_;
     const WeatheringOf<Plain>& amounts_;
     const MarginCuts& cuts_;
-    int lod_;
+    DetailLevel level_;
     bool keep_absent_, textured_;
     std::size_t columns_;
     DamageSolids solids_;
@@ -486,27 +486,27 @@ class Weatherer {
 
 }  // namespace
 
-WeatheringCount weathering_count(const Individual& individual, int lod) {
+WeatheringCount weathering_count(const Individual& individual, DetailLevel level) {
     WeatheringCount count;
-    const MarginCuts cuts(individual, lod);
+    const MarginCuts cuts(individual, level);
     count.columns = cuts.turns().size();
     if (cuts.possible()) {
         count.vertices += 2 * (count.columns + 1);
         count.triangles += 2 * count.columns;
     }
-    const MeshCount solids = damage_solid_count(individual, lod);
+    const MeshCount solids = damage_solid_count(individual, level);
     count.vertices += solids.vertices;
     count.triangles += solids.triangles;
     return count;
 }
 
 Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual,
-             const MarginCuts& cuts, int lod, bool keep_absent) {
+             const MarginCuts& cuts, DetailLevel level, bool keep_absent) {
     const DamageAmounts& damage = individual.damage;
     if (!damage.any() && !damage.bites && !damage.splits && !damage.melts && !damage.peels &&
         !damage.dew)
         return {};
-    return Weatherer(mesh, body, individual, cuts, lod, keep_absent).run();
+    return Weatherer(mesh, body, individual, cuts, level, keep_absent).run();
 }
 
 }  // namespace sporeprint

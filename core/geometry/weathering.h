@@ -8,6 +8,7 @@
 #include "core/geometry/curl.h"
 #include "core/geometry/damage_cuts.h"
 #include "core/individual/individual.h"
+#include "core/mesh/detail.h"
 #include "core/mesh/mesh.h"
 #include "core/surface/charts.h"
 
@@ -31,7 +32,7 @@ struct WeatheringCount {
     std::uint64_t vertices = 0;
     std::uint64_t triangles = 0;  ///< when everything is present
 };
-[[nodiscard]] WeatheringCount weathering_count(const Individual& individual, int lod);
+[[nodiscard]] WeatheringCount weathering_count(const Individual& individual, DetailLevel level);
 
 /// Applies weathering to a body that has just been swept: dents it, cuts it back, closes the cuts
 /// and adds solids. An individual that cannot be damaged keeps its mesh bit for bit.
@@ -40,6 +41,6 @@ struct WeatheringCount {
 /// keep_absent  whether triangles of absent parts are emitted, with zero area
 /// returns      the curl of the margin, for solids added later
 Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual,
-             const MarginCuts& cuts, int lod, bool keep_absent);
+             const MarginCuts& cuts, DetailLevel level, bool keep_absent);
 
 }  // namespace sporeprint

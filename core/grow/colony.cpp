@@ -446,7 +446,24 @@ Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const 
     return resolve(own, atlas, caches.morphs);
 }
 
+ColonySpec at_level(ColonySpec spec, const Individual& typical, const Atlas& atlas) {
+    ColonyParams& params = spec.params;
+    if (!params.triangles) return spec;
+    const ColonyTraits traits = colony_traits(spec, atlas);
+    const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
+    const double repeated = std::max(params.count - params.distinct, 0);
+    params.lod = nearest_level(*params.triangles, [&](int lod) {
+        const MeshCount stored = expected_count(spec, typical, traits, growth, lod);
+        const MeshCount one = body_count(typical, mesh_lod(typical, lod));
+        return static_cast<double>(stored.triangles) +
+               repeated * static_cast<double>(one.triangles);
+    });
+    params.triangles.reset();
+    return spec;
+}
+
 Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas& atlas) {
+    if (spec.params.triangles) return estimate(at_level(spec, typical, atlas), typical, atlas);
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
     refuse_impossible(params.file, params.textures);
@@ -465,6 +482,8 @@ Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas
 
 std::vector<Level> levels_of(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
                              const Bounds& box) {
+    if (spec.params.triangles)
+        return levels_of(at_level(spec, typical, atlas), typical, atlas, box);
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
     const StemFit fit = fit_of(typical, traits);
@@ -602,6 +621,8 @@ Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extr
 
 Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
                   const Extras& extras, const ExecutionContext& execution) {
+    if (spec.params.triangles)
+        return grow_colony(at_level(spec, typical, atlas), typical, atlas, extras, execution);
     const ColonyParams& params = spec.params;
     refuse_impossible(params.file, params.textures);
     refuse_impossible_variants(params.variants, params.textures, params.file);

@@ -19,6 +19,13 @@ namespace sporeprint {
 [[nodiscard]] Individual typical_individual(const ColonySpec& spec, const Atlas& atlas,
                                             const Caches& caches = {});
 
+/// Returns the spec at the whole level of detail whose expected number of drawn triangles, every
+/// instance counted, is nearest to `triangles`, without that; a spec without it unchanged.
+///
+/// typical  typical_individual() of the spec
+/// throws   as estimate()
+[[nodiscard]] ColonySpec at_level(ColonySpec spec, const Individual& typical, const Atlas& atlas);
+
 /// Returns the approximate numbers of vertices and triangles in the file (seldom too low), texels
 /// and bytes. Nothing is built.
 ///
@@ -48,12 +55,15 @@ struct Colony {
 /// Builds the parts: `distinct` individuals of the mix, from the oldest to those of half its age,
 /// placed on stems or as whole mushrooms.
 ///
+/// spec     at_level() of a request
 /// typical  typical_individual() of the spec
 /// throws   InvalidInput, Impossible, Cancelled
 [[nodiscard]] Colony colony_parts(const ColonySpec& spec, const Individual& typical,
                                   const Atlas& atlas, const ExecutionContext& execution = {});
 
 /// Returns the estimate of a built colony, with exact vertex and triangle counts.
+///
+/// spec  at_level() of a request
 [[nodiscard]] Estimate measured(const ColonySpec& spec, const Colony& colony);
 
 /// Returns the bounding box of all instances of a colony.
@@ -73,6 +83,8 @@ struct Colony {
 
 /// Returns the spec of the mushroom whose images all members of a colony use, with the variants of
 /// the colony.
+///
+/// spec  at_level() of a request
 [[nodiscard]] MushroomSpec paint_mushroom_spec(const ColonySpec& spec);
 
 /// Returns everything that painting these images depends on, or those of a variant.

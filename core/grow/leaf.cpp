@@ -60,7 +60,18 @@ std::vector<Level> sized_levels(const LeafParams& params, std::span<const Mesh> 
 
 }  // namespace
 
+LeafSpec at_level(LeafSpec spec) {
+    LeafParams& params = spec.params;
+    if (!params.triangles) return spec;
+    params.lod = nearest_level(*params.triangles, [&](int lod) {
+        return static_cast<double>(most_of_leaf(params.shape.venation, lod).triangles);
+    });
+    params.triangles.reset();
+    return spec;
+}
+
 Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
+    if (spec.params.triangles) return measured(at_level(spec), levels);
     const LeafParams& params = spec.params;
     Estimate e;
     for (const Level& level : levels.first(levels_in_file(params.lod, params.file).size()))
@@ -70,6 +81,7 @@ Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
 }
 
 Estimate estimate(const LeafSpec& spec) {
+    if (spec.params.triangles) return estimate(at_level(spec));
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
     refuse_impossible(params.file, params.textures);
@@ -83,6 +95,7 @@ Estimate estimate(const LeafSpec& spec) {
 }
 
 std::vector<Level> levels_of(const LeafSpec& spec) {
+    if (spec.params.triangles) return levels_of(at_level(spec));
     LeafSpec all = spec;
     all.params.file.lods = Lods::nodes;
     return sized_levels(spec.params, level_meshes(all));
@@ -91,6 +104,7 @@ std::vector<Level> levels_of(const LeafSpec& spec) {
 Mesh leaf_mesh(const LeafSpec& spec) {
     const LeafParams& params = spec.params;
     require_valid(params);
+    if (params.triangles) return leaf_mesh(at_level(spec));
     Mesh mesh = leaf_mesh(shape_of(params), params.lod, params.size);
     if (params.textures == Textures::none) {
         mesh.texture_coordinates.clear();
@@ -123,6 +137,7 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
 
 Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
                 const ExecutionContext& execution) {
+    if (spec.params.triangles) return grow_leaf(at_level(spec), atlas, extras, execution);
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
     refuse_impossible(params.file, params.textures);

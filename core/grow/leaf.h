@@ -13,6 +13,12 @@
 
 namespace sporeprint {
 
+/// Returns the spec at the whole level of detail whose largest number of triangles is nearest to
+/// `triangles`, without that; a spec without it unchanged. All functions below do so themselves.
+///
+/// pre  check() reports nothing for the spec
+[[nodiscard]] LeafSpec at_level(LeafSpec spec);
+
 /// Returns upper bounds of vertices and triangles, texels and bytes; takes nanoseconds.
 [[nodiscard]] Estimate estimate(const LeafSpec& spec);
 

@@ -9,6 +9,15 @@
 
 namespace sporeprint {
 
+namespace {
+
+/// name  product_name()
+std::string name_of(const Level& level, const std::string& name) {
+    return level.name.empty() ? level_name(name, level.lod.lod) : level.name;
+}
+
+}  // namespace
+
 double inscribed_error(int corners) {
     const double half = pi / corners;
     return 1.0 - sine_cosine(half).cosine;
@@ -28,14 +37,28 @@ void set_coverages(std::vector<Level>& levels, const Bounds& box, std::span<cons
     }
 }
 
+int nearest_level(int triangles, const std::function<double(int)>& count_at) {
+    int nearest = 0;
+    double least = 0.0;
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+        const double count = count_at(lod), wanted = triangles;
+        const double off = std::max(count, wanted) / std::min(count, wanted);
+        if (lod > 0 && off >= least) continue;
+        nearest = lod;
+        least = off;
+    }
+    return nearest;
+}
+
 Value level_list(std::span<const Level> levels) {
     Value list = Value::array();
     for (const Level& level : levels) {
         Value item = Value::object();
-        item.set("lod", Value(level.lod));
+        item.set("lod", level.lod.is_whole() ? Value(level.lod.lod) : Value(level.lod.number()));
         item.set("vertices", Value(level.vertices));
         item.set("triangles", Value(level.triangles));
         item.set("screen_coverage", Value(level.screen_coverage));
+        if (!level.name.empty()) item.set("name", level.name);
         list.push(std::move(item));
     }
     return list;
@@ -60,7 +83,7 @@ void add_grouped_levels(GlbScene& scene, const std::string& name, std::span<cons
                         const std::function<void(std::size_t, const std::string&)>& add) {
     std::vector<std::size_t> nodes;
     for (std::size_t i = 0; i < levels.size(); ++i) {
-        const std::string own = level_name(name, levels[i].lod);
+        const std::string own = name_of(levels[i], name);
         std::size_t first = scene.nodes.size();
         if (lods != Lods::single) {
             nodes.push_back(first++);
@@ -79,7 +102,7 @@ void add_levels(GlbScene& scene, const std::string& name,
                 std::span<const Level> levels, Lods lods) {
     std::vector<std::size_t> nodes;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        const std::string own = level_name(name, levels[i].lod);
+        const std::string own = name_of(levels[i], name);
         nodes.push_back(scene.nodes.size());
         scene.nodes.push_back({.name = own, .mesh = scene.meshes.size()});
         scene.meshes.push_back({own, primitives[i]});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/gltf/glb.h"
+#include "core/mesh/detail.h"
 #include "core/mesh/mesh.h"
 #include "core/params/shared_params.h"
 #include "core/params/value.h"
@@ -17,11 +18,13 @@ namespace sporeprint {
 
 /// One level of detail of an individual.
 struct Level {
-    int lod = 0;
+    DetailLevel lod = 0;
     std::uint64_t vertices = 0, triangles = 0;
     /// Longest side of the bounding box over the height of the screen, down to which this level is
     /// drawn; below it the next one looks the same. Below that of the last level there is nothing to see.
     double screen_coverage = 0.0;
+    /// Of its node and mesh in the file; empty: level_name() of its LOD.
+    std::string name = {};
 };
 
 /// The screen for which coverages are computed: its height, and the height below which an individual
@@ -38,6 +41,12 @@ inline constexpr double screen_pixels = 1080.0, least_pixels = 2.0;
 /// box     of the individual, metres
 /// errors  largest distance of each level's outline from the true one, metres; ascending
 void set_coverages(std::vector<Level>& levels, const Bounds& box, std::span<const double> errors);
+
+/// Returns the whole level of detail whose count is nearest to a number of triangles in ratio; of two
+/// equally near ones the finer.
+///
+/// count_at  triangles at an LOD, positive
+[[nodiscard]] int nearest_level(int triangles, const std::function<double(int)>& count_at);
 
 /// Returns the list of levels as JSON.
 [[nodiscard]] Value level_list(std::span<const Level> levels);

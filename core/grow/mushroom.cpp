@@ -9,6 +9,7 @@
 #include "core/gltf/glb.h"
 #include "core/grow/collision.h"
 #include "core/grow/growth.h"
+#include "core/grow/level_choice.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
 #include "core/grow/variants.h"
@@ -22,13 +23,20 @@ namespace {
 
 bool textured(const MushroomSpec& spec) { return spec.params.textures != Textures::none; }
 
+Mesh ordered_mesh(const MushroomSpec& spec, const Individual& individual, DetailLevel level) {
+    Mesh mesh = body_mesh(
+        individual, level,
+        {.textured = textured(spec), .keep_absent = spec.params.animation != Animation::none});
+    order_for_vertex_cache(mesh);
+    return mesh;
+}
+
 /// Returns the mesh of each level of detail of a file.
-std::vector<Mesh> level_meshes(MushroomSpec spec, const Individual& individual,
+std::vector<Mesh> level_meshes(const MushroomSpec& spec, const Individual& individual,
                                const ExecutionContext& execution) {
     std::vector<Mesh> meshes;
-    for (const int lod : levels_in_file(spec.params.lod, spec.params.file)) {
-        spec.params.lod = lod;
-        meshes.push_back(mushroom_mesh(spec, individual));
+    for (const DetailLevel level : levels_in_file(spec, individual)) {
+        meshes.push_back(ordered_mesh(spec, individual, level));
         throw_if_cancelled(execution);
     }
     return meshes;
@@ -69,11 +77,12 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     refuse_impossible(params.file, params.textures);
     refuse_impossible_variants(params.variants, params.textures, params.file);
     Estimate e;
-    for (const int lod : levels_in_file(params.lod, params.file)) {
-        const MeshCount mesh = body_count(individual, lod, grows);
+    const std::vector<DetailLevel> levels = levels_in_file(spec, individual);
+    for (const DetailLevel level : levels) {
+        const MeshCount mesh = body_count(individual, level, grows);
         add_level(e, mesh.vertices, mesh.triangles, params.textures, params.file);
     }
-    const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
+    const auto side = static_cast<std::uint64_t>(params.texture_size) >> levels.front().nearest();
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
@@ -89,32 +98,29 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     return e;
 }
 
-Mesh body_mesh(const Individual& individual, int lod, const SweepOptions& options) {
-    return individual.is_branched() ? branched_mesh(individual, lod, options)
-                                    : swept_mesh(individual, lod, options);
+Mesh body_mesh(const Individual& individual, DetailLevel level, const SweepOptions& options) {
+    return individual.is_branched() ? branched_mesh(individual, level, options)
+                                    : swept_mesh(individual, level, options);
 }
 
-MeshCount body_count(const Individual& individual, int lod, bool keep_absent) {
-    return individual.is_branched() ? branched_mesh_count(individual.branch_graph, lod, keep_absent)
-                                    : budget_of(individual, lod).count;
+MeshCount body_count(const Individual& individual, DetailLevel level, bool keep_absent) {
+    return individual.is_branched()
+               ? branched_mesh_count(individual.branch_graph, level, keep_absent)
+               : budget_of(individual, level).count;
 }
 
 Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
-    Mesh mesh = body_mesh(
-        individual, spec.params.lod,
-        {.textured = textured(spec), .keep_absent = spec.params.animation != Animation::none});
-    order_for_vertex_cache(mesh);
-    return mesh;
+    return ordered_mesh(spec, individual, first_level(spec, individual));
 }
 
-double outline_error(const Individual& individual, int lod, double radius) {
+double outline_error(const Individual& individual, DetailLevel level, double radius) {
     if (!individual.is_branched()) {
-        const Detail& detail = detail_of(lod);
+        const Detail detail = detail_of(level);
         // The rings of a cap divide a quarter of a circle.
         return radius * (inscribed_error(detail.columns) + inscribed_error(4 * detail.cap_rings));
     }
     const BranchGraph& graph = individual.branch_graph;
-    const BranchPlan plan = branch_plan(graph, lod);
+    const BranchPlan plan = branch_plan(graph, level);
     double tips = 0.0;
     for (const std::uint32_t root : graph.roots) tips += graph.nodes[root].tips;
     // Tubes that are left out leave gaps: n tips in a disc are about radius / sqrt(n) apart.
@@ -130,10 +136,13 @@ std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individ
         0.5 * static_cast<double>(std::max(box.max.x - box.min.x, box.max.z - box.min.z));
     std::vector<Level> levels;
     std::vector<double> errors;
-    for (int lod = spec.params.lod; lod <= last_lod; ++lod) {
-        const MeshCount count = body_count(individual, lod, grows);
-        levels.push_back({lod, count.vertices, count.triangles, 0.0});
-        errors.push_back(outline_error(individual, lod, radius));
+    const bool is_chain = spec.params.file.lods != Lods::single;
+    for (const DetailLevel level :
+         is_chain ? levels_in_file(spec, individual)
+                  : levels_from(first_level(spec, individual), individual, grows)) {
+        const MeshCount count = body_count(individual, level, grows);
+        levels.push_back({level, count.vertices, count.triangles, 0.0});
+        errors.push_back(outline_error(individual, level, radius));
     }
     set_coverages(levels, box, errors);
     return levels;
@@ -165,25 +174,28 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     throw_if_cancelled(execution);
     const Mesh& first = meshes.front();
     const Bounds box = bounds(first);
-    const bool is_chain = params.file.lods != Lods::single;
-    std::vector<Level> levels =
-        is_chain ? levels_of(spec, individual, box) : std::vector<Level>{{params.lod}};
+    const MushroomSpec images_of = image_spec(spec, individual);
+    std::vector<Level> levels = params.file.lods != Lods::single
+                                    ? levels_of(spec, individual, box)
+                                    : std::vector<Level>{{first_level(spec, individual)}};
+    for (std::size_t i = 0; i < levels.size(); ++i) levels[i].name = level_name(spec, i);
     GlbScene scene;
     set_options(scene, params.file);
-    scene.materials.push_back({.name = skin_name(spec), .look = look_of(individual.model)});
+    scene.materials.push_back({.name = skin_name(images_of), .look = look_of(individual.model)});
     scene.stands_on_ground = !grows_from_wall(individual.model);
     GrowthClip growth;
     if (params.animation == Animation::growth) {
         growth = growth_clip(spec, atlas, first, execution);
         scene.clip = &growth.clip;
     }
-    const EmbeddedImages images = attach_images(
-        scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
-        [&](ImageFormat format) {
-            return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
-        });
+    const EmbeddedImages images =
+        attach_images(scene.materials.front(), params.textures, params.file, extras.image_urls,
+                      execution, [&](ImageFormat format) {
+                          return painted_images(paint_spec_of(images_of, atlas, execution.caches),
+                                                execution, format);
+                      });
     const std::vector<EmbeddedImages> variant_images =
-        add_variants(scene, variants_of(spec, individual), params.textures, params.file, extras,
+        add_variants(scene, variants_of(images_of, individual), params.textures, params.file, extras,
                      execution, [&](const MushroomSpec& painted) {
                          return paint_spec_of(painted, atlas, execution.caches);
                      });
@@ -198,8 +210,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
     scene.extras_json = dump(extras_value(extras, write(individual.effective), box,
                                           first.triangles(), {levels, params.file.lods}, wind));
-    add_collision(scene, collision, level_name(product_name(spec), params.lod),
-                  params.file.collision);
+    add_collision(scene, collision, levels.front().name, params.file.collision);
     grown.glb = extras.write(scene);
     return grown;
 }

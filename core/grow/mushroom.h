@@ -7,6 +7,7 @@
 #include "core/grow/product.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/individual/resolve.h"
+#include "core/mesh/detail.h"
 #include "core/version.h"
 
 namespace sporeprint {
@@ -21,14 +22,15 @@ namespace sporeprint {
 /// vertex cache.
 ///
 /// throws  as swept_mesh() and branched_mesh()
-[[nodiscard]] Mesh body_mesh(const Individual& individual, int lod,
+[[nodiscard]] Mesh body_mesh(const Individual& individual, DetailLevel level,
                              const SweepOptions& options = {});
 
 /// Returns the counts of body_mesh(): vertices exactly; triangles at most, and exactly for branched
 /// individuals.
-[[nodiscard]] MeshCount body_count(const Individual& individual, int lod, bool keep_absent = true);
+[[nodiscard]] MeshCount body_count(const Individual& individual, DetailLevel level,
+                                   bool keep_absent = true);
 
-/// Returns the mesh alone.
+/// Returns the mesh of the first level of detail of a file alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual);
 
 /// Returns about the largest distance of the outline of a mesh at a level of detail from the true
@@ -36,9 +38,10 @@ namespace sporeprint {
 /// that missing branches leave.
 ///
 /// radius  of the widest part, metres
-[[nodiscard]] double outline_error(const Individual& individual, int lod, double radius);
+[[nodiscard]] double outline_error(const Individual& individual, DetailLevel level, double radius);
 
-/// Returns the requested level of detail and all below it.
+/// Returns the requested level of detail and those below it: the levels of a file of several, else
+/// the whole ones, each of which is a file of its own.
 ///
 /// box  of the mesh
 [[nodiscard]] std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individual,

@@ -32,6 +32,10 @@ std::string with_seed(std::string name, std::uint32_t seed) {
     return std::move(name) + "_s" + std::to_string(seed);
 }
 
+std::string with_triangles(std::string name, int triangles) {
+    return std::move(name) + "_t" + std::to_string(triangles);
+}
+
 double percent_of(double age) { return std::floor(100.0 * age + 0.5); }
 
 std::string with_age(std::string name, double age) {
@@ -69,6 +73,7 @@ template <class Params>
 std::string unnamed(Params params, const Params& own) {
     params.seed = own.seed;
     params.lod = own.lod;
+    params.triangles.reset();
     params.file = own.file;
     if constexpr (requires { params.age; }) {
         // An age that is not a whole percentage is named by its nearest one.
@@ -130,8 +135,19 @@ std::string level_name(const std::string& name, int lod) {
     return name + "_LOD" + std::to_string(lod);
 }
 
-std::string file_name(const std::string& name, int lod, const FileOptions& file) {
-    std::string out = level_name(name, lod);
+std::string level_name(const MushroomSpec& spec, std::size_t index) {
+    const MushroomParams& params = spec.params;
+    const std::string name = product_name(spec);
+    if (params.triangles)
+        return level_name(with_triangles(name, *params.triangles), static_cast<int>(index));
+    if (params.file.lods == Lods::single) return level_name(name, params.lod);
+    return level_name(name + "_from" + std::to_string(params.lod), static_cast<int>(index));
+}
+
+std::string file_name(const std::string& name, int lod, const std::optional<int>& triangles,
+                      const FileOptions& file) {
+    std::string out =
+        triangles ? level_name(with_triangles(name, *triangles), 0) : level_name(name, lod);
     FileOptions::fields([&](auto option, const Info&) {
         using Option = std::remove_cvref_t<decltype(file.*option)>;
         if (file.*option == FileOptions{}.*option) return;

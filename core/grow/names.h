@@ -2,6 +2,8 @@
 // by name, so equal names mean equal parts. Names have letters of ASCII, digits and '_' only.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +33,19 @@ namespace sporeprint {
 /// Returns the name of a level of detail, as engines expect it: "amanita_muscaria_s7_a60_LOD1".
 [[nodiscard]] std::string level_name(const std::string& name, int lod);
 
+/// Returns the name of a level of detail of the file of a mushroom. A file of one whole level has
+/// that of the level. The levels of all others are numbered from 0, since engines group by number;
+/// before it stands what tells them from those of other files: "amanita_muscaria_s7_a60_from1_LOD2"
+/// with lods and lod=1, "amanita_muscaria_s7_a60_t15000_LOD0" with triangles=15000.
+///
+/// index  of the level in the file
+[[nodiscard]] std::string level_name(const MushroomSpec& spec, std::size_t index);
+
 /// Returns the name of the file without its ending: that of its first level of detail, and how it
-/// is written: "amanita_muscaria_s7_a60_LOD0_msft_meshopt".
-[[nodiscard]] std::string file_name(const std::string& name, int lod, const FileOptions& file);
+/// is written: "amanita_muscaria_s7_a60_LOD0_msft_meshopt". With a number of triangles, which it states,
+/// the first level is not known before the individual: "amanita_muscaria_s7_a60_t15000_LOD0".
+[[nodiscard]] std::string file_name(const std::string& name, int lod,
+                                    const std::optional<int>& triangles, const FileOptions& file);
 
 /// Returns the name of the material of a mushroom, and of all individuals of a colony. Its images
 /// depend on the seed, and its resolution on the level of detail: "amanita_muscaria_s7_a60_skin_LOD1".

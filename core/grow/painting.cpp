@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/grow/level_choice.h"
 #include "core/grow/mushroom.h"
 #include "core/mesh/detail.h"
 #include "core/params/canonical.h"
@@ -164,6 +165,8 @@ Mix surface_mix(const Mix& mix) {
 }
 
 MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {
+    if (spec.params.triangles)
+        return surface_spec(image_spec(spec, resolve(spec, atlas, caches.morphs)), atlas, caches);
     MushroomSpec stepped = spec;
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;

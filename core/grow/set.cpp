@@ -123,6 +123,7 @@ MushroomSpec file_spec(const SetSpec& spec, const SetIndividual& individual, std
     one.mix = spec.species[individual.species];
     one.params = individual.params;
     one.params.lod = spec.params.levels[level];
+    one.params.triangles.reset();
     // The levels of one file are those of the set.
     if (spec.packing == SetPacking::one_file) one.params.file.lods = Lods::single;
     return one;

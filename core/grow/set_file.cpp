@@ -95,7 +95,7 @@ Wind set_wind(std::vector<SetMember>& members, WindFormat format) {
 
 void add_nodes(GlbScene& scene, SetMember& member, Lods lods) {
     for (std::size_t level = 0; level < member.meshes.size(); ++level) {
-        const std::string own = level_name(member.name, member.levels[level].lod);
+        const std::string own = level_name(member.name, member.levels[level].lod.lod);
         member.nodes.push_back(scene.nodes.size());
         scene.nodes.push_back(
             {.name = own, .mesh = scene.meshes.size(), .translation = member.place});
@@ -130,7 +130,7 @@ void add_collisions(GlbScene& scene, const std::vector<SetMember>& members, Coll
     for (std::size_t i = 0; i < collisions.size(); ++i)
         add_collision(scene, collisions[i],
                       format == CollisionFormat::nodes
-                          ? level_name(members[i].name, members[i].levels.front().lod)
+                          ? level_name(members[i].name, members[i].levels.front().lod.lod)
                           : "mushrooms",
                       format);
 }

@@ -170,7 +170,22 @@ double crown_error(const TreeParams& params, const Atlas& atlas, int lod, double
 
 }  // namespace
 
+TreeSpec at_level(TreeSpec spec) {
+    TreeParams& params = spec.params;
+    if (!params.triangles) return spec;
+    const int wanted = *params.triangles;
+    params.triangles.reset();
+    static_cast<void>(estimate(spec));  // throws if the tree is too large
+    const double leaves = expected_tips(params.look.shape.topology) * params.look.leaves.per_tip;
+    params.lod = nearest_level(wanted, [&](int lod) {
+        return static_cast<double>(
+            expected_count(params, lod, leaves).total(params.instancing).triangles);
+    });
+    return spec;
+}
+
 Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
+    if (spec.params.triangles) return measured(at_level(spec), levels);
     const TreeParams& params = spec.params;
     Estimate e;
     for (const TreeMeshes& meshes : levels) add_level(e, params, count_of(meshes));
@@ -180,6 +195,7 @@ Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
 }
 
 Estimate estimate(const TreeSpec& spec) {
+    if (spec.params.triangles) return estimate(at_level(spec));
     const TreeParams& params = spec.params;
     const TreeLook& look = params.look;
     refuse_impossible(params);
@@ -207,6 +223,7 @@ Estimate estimate(const TreeSpec& spec) {
 }
 
 std::vector<Level> levels_of(const TreeSpec& spec, const Atlas& atlas, const Bounds& box) {
+    if (spec.params.triangles) return levels_of(at_level(spec), atlas, box);
     static_cast<void>(estimate(spec));  // throws if the tree is too large
     const TreeParams& params = spec.params;
     const double leaves = expected_tips(params.look.shape.topology) * params.look.leaves.per_tip;
@@ -238,6 +255,7 @@ TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas) {
 std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
     TreeParams params = spec.params;
     require_valid(params);
+    if (params.triangles) return level_meshes(at_level(spec), atlas);
     const LeafParams leaf = leaf_of(params, atlas);
     static_cast<void>(estimate(spec));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
@@ -296,6 +314,8 @@ std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
 
 Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
                 const ImageUrls& leaf_urls, const ExecutionContext& execution) {
+    if (spec.params.triangles)
+        return grow_tree(at_level(spec), atlas, extras, leaf_urls, execution);
     const TreeParams& params = spec.params;
     execution.observer(Step::build);
     const std::vector<TreeMeshes> meshes = level_meshes(spec, atlas);

@@ -14,6 +14,13 @@
 
 namespace sporeprint {
 
+/// Returns the spec at the whole level of detail whose expected number of drawn triangles is nearest
+/// to `triangles`, without that; a spec without it unchanged. All functions below do so themselves.
+///
+/// pre     check() reports nothing for the spec
+/// throws  as estimate()
+[[nodiscard]] TreeSpec at_level(TreeSpec spec);
+
 /// Returns slightly high estimates of vertices and triangles, texels and bytes; takes microseconds.
 /// For a sampled topology the expected numbers are used.
 ///

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/model.h"
+#include "core/params/profile.h"
 #include "core/params/shared_params.h"
 #include "core/silhouette/morph_set.h"
 
@@ -40,6 +41,7 @@ struct MushroomParams {
     double size = 1.0;
     double variation = 0.5;
     int lod = 0;
+    std::optional<int> triangles;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     ImageShare share = ImageShare::individual;
@@ -71,6 +73,7 @@ struct MushroomParams {
                    .max = 1,
                    .doc = "How far individuals depart from their species' template."});
         visit(&P::lod, lod_info);
+        visit(&P::triangles, triangles_info);
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);
         visit(&P::share, share_info);
@@ -98,8 +101,9 @@ struct MushroomParams {
                           "stage, or one; only with animation=growth."});
     }
     /// Refuses `frames` and `targets` without a clip, which would make a second URL of the same
-    /// bytes, and a clip of several levels of detail.
+    /// bytes, a clip of several levels of detail, and two parameters that choose the level.
     void check(const std::string& path, std::vector<Problem>& problems) const {
+        refuse_two_levels(*this, path, problems);
         if (animation == Animation::none) {
             if (frames != MushroomParams{}.frames)
                 report(

@@ -82,11 +82,11 @@ OutlineNodes scaled(OutlineNodes nodes, double factor) {
     return nodes;
 }
 
-std::optional<CurveName> self_intersecting_curve(const Outline& outline, int lod) {
-    const auto intersection = static_intersection(polyline(outline, lod));
+std::optional<CurveName> self_intersecting_curve(const Outline& outline, DetailLevel level) {
+    const auto intersection = static_intersection(polyline(outline, level));
     if (!intersection) return std::nullopt;
-    return curve_of(*intersection, outline.rings(CurveName::stem, lod).size(),
-                    outline.rings(CurveName::hymenium, lod).size());
+    return curve_of(*intersection, outline.rings(CurveName::stem, level).size(),
+                    outline.rings(CurveName::hymenium, level).size());
 }
 
 double greatest_radius(const SubCurve& curve) {

@@ -33,7 +33,8 @@ struct Proportions {
 /// Returns the sub-curve in which the swept polyline of one level of detail touches itself, folds
 /// back or reaches the axis between its ends; none if it is simple. Coincident vertices count once:
 /// a sub-curve that has shrunk to a point crosses nothing.
-[[nodiscard]] std::optional<CurveName> self_intersecting_curve(const Outline& outline, int lod);
+[[nodiscard]] std::optional<CurveName> self_intersecting_curve(const Outline& outline,
+                                                               DetailLevel level);
 
 /// Returns the largest distance from the axis at 33 evenly spaced points of a sub-curve, metres.
 [[nodiscard]] double greatest_radius(const SubCurve& curve);

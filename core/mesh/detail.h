@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 
@@ -10,6 +11,30 @@ namespace sporeprint {
 /// The size of a mesh or of a part of it.
 struct MeshCount {
     std::uint64_t vertices = 0, triangles = 0;
+};
+
+/// A level of detail: a whole one, or a place between it and the next one in eighths of the way. A
+/// whole LOD converts to it, and of two levels the finer one is less.
+struct DetailLevel {
+    static constexpr int steps = 8;  ///< from a whole level to the next
+
+    int lod = 0;      ///< the whole level, or the finer one of the two
+    int eighths = 0;  ///< 0..7
+
+    constexpr DetailLevel() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): a whole LOD is a level of detail
+    constexpr DetailLevel(int whole, int eighths_further = 0)
+        : lod(whole), eighths(eighths_further) {}
+
+    [[nodiscard]] constexpr bool is_whole() const { return eighths == 0; }
+    /// Returns the level as a number: 0.5 is half-way from LOD 0 to LOD 1.
+    [[nodiscard]] constexpr double number() const {
+        return lod + static_cast<double>(eighths) / steps;
+    }
+    /// Returns the nearest whole level; half-way the coarser one.
+    [[nodiscard]] constexpr int nearest() const { return lod + (2 * eighths >= steps ? 1 : 0); }
+
+    auto operator<=>(const DetailLevel&) const = default;
 };
 
 /// The counts of one level of detail.
@@ -25,7 +50,7 @@ struct Detail {
         1.0;
 };
 
-/// The levels of detail by index. The individual is the same in each: counts change, random draws
+/// The whole levels of detail by index. The individual is the same in each: counts change, random draws
 /// do not. One table serves every species, so that a mix of weight 1 reproduces the single-species
 /// mesh.
 inline constexpr std::array<Detail, 4> details = {{
@@ -41,15 +66,23 @@ inline constexpr std::array<Detail, 4> details = {{
 inline constexpr int farthest_lod = 4;
 inline constexpr Detail farthest_detail = {3, 2, 3, 8, 0, 0, 0, 1};
 
-/// Returns the counts of a level of detail, 0..farthest_lod.
-[[nodiscard]] constexpr const Detail& detail_of(int lod) {
-    return lod < farthest_lod ? details[static_cast<std::size_t>(lod)] : farthest_detail;
-}
+/// Returns the counts of a level of detail, 0..farthest_lod. Between two whole levels counts are in
+/// geometric progression, columns even; what the coarser one lacks ends half-way, and warts and
+/// scales become fewer before.
+[[nodiscard]] Detail detail_of(DetailLevel level);
 
-/// Returns the row of a table by LOD; at farthest_lod, that of LOD 3.
+/// Returns the value of a table of whole levels at a level, in geometric progression between two of
+/// them.
+///
+/// from, to  its values at level.lod and at the next level, positive
+[[nodiscard]] double between(double from, double to, DetailLevel level);
+
+/// Returns the row of a table by LOD: between two levels that of the nearest, at farthest_lod that of
+/// LOD 3.
 template <class Table>
-[[nodiscard]] constexpr const auto& at_level(const Table& table, int lod) {
-    return table[lod < farthest_lod ? static_cast<std::size_t>(lod) : table.size() - 1];
+[[nodiscard]] constexpr const auto& at_level(const Table& table, DetailLevel level) {
+    const auto row = static_cast<std::size_t>(level.nearest());
+    return table[row < table.size() ? row : table.size() - 1];
 }
 
 }  // namespace sporeprint

@@ -1,7 +1,12 @@
 // Profiles: the options of a file for each engine.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "core/params/messages.h"
 #include "core/params/shared_params.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 
@@ -58,6 +63,9 @@ template <class Params>
         return {};
 }
 
+/// Returns the level of detail of a request that names none.
+[[nodiscard]] constexpr int lod_of(Profile profile) { return profile == Profile::mobile ? 1 : 0; }
+
 /// Sets what a profile sets: the options of the file and, for phones, the level of detail.
 ///
 /// params  of a product, with its defaults or those of its preset
@@ -66,7 +74,7 @@ constexpr void apply_profile(Profile profile, Params& params) {
     params.file = options_of(profile);
     if (!profile_fit_of<Params>().solids) params.file.collision = CollisionFormat::none;
     if (!profile_fit_of<Params>().wind) params.file.wind = WindFormat::none;
-    if (profile == Profile::mobile) params.lod = 1;
+    if (profile == Profile::mobile) params.lod = lod_of(profile);
 }
 
 /// The options of a profile that other options can exclude, and whether a request names them itself.
@@ -107,6 +115,18 @@ template <class Params>
     defaults.file.wind = allowed.file.wind;
     defaults.file.profile = Profile::core;
     return defaults;
+}
+
+/// Refuses a number of triangles beside a level of detail: only one of them can choose the level.
+///
+/// params  of any product
+template <class Params>
+void refuse_two_levels(const Params& params, const std::string& path,
+                       std::vector<Problem>& problems) {
+    if (params.triangles && params.lod != lod_of(params.file.profile))
+        report(problems, path + "/triangles",
+               std::to_string(*params.triangles) + " chooses the level of detail, and lod=" +
+                   std::to_string(params.lod) + " does too; give one of them");
 }
 
 }  // namespace sporeprint

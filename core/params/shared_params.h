@@ -187,8 +187,23 @@ inline constexpr Info lod_info{
     .name = "lod",
     .min = 0,
     .max = last_lod,
-    .doc = "Level of detail: the same individual with fewer triangles and smaller images.",
+    .doc =
+        "Level of detail: the same individual with fewer triangles and smaller images. 0 is for "
+        "close-ups; games begin with triangles=12000 or with 1.",
     .default_from = "profile"};
+inline constexpr Info triangles_info{
+    .name = "triangles",
+    .min = 1,
+    .max = 10'000'000,
+    .doc =
+        "Instead of lod: the level of detail whose number of triangles is nearest to this one in "
+        "ratio. It is a target, not a bound: the json states the level and its real number. For "
+        "a mushroom levels between the whole ones count too, with the images of the nearest "
+        "whole one; for all others the whole levels by their expected numbers. Games take 12000 "
+        "for a mushroom that is looked at; lod=0 is for close-ups.",
+    .group = "file",
+    .default_from = "lod"};
+
 inline constexpr Info texture_size_info{
     .name = "texture_size",
     .unit = "texels",
@@ -253,14 +268,17 @@ struct FileOptions {
                           "emission), or of core glTF alone, which is cheaper to draw.",
                    .group = "file",
                    .default_from = "profile"});
-        visit(&O::lods,
-              Info{.name = "lods",
-                   .doc = "Levels of detail in the file: that of lod alone, or all from it to the "
-                          "last with the images of the first. nodes: nodes named _LOD0 to _LOD3 at "
-                          "one place, for modelling programs (viewers draw all of them). msft: by "
-                          "MSFT_lod, where other readers show the first.",
-                   .group = "file",
-                   .default_from = "profile"});
+        visit(
+            &O::lods,
+            Info{.name = "lods",
+                 .doc = "Levels of detail in the file: that of lod or triangles alone, or all from "
+                        "it to the last with the images of the first; a mushroom has a further "
+                        "level between two that differ by more than four times. nodes: nodes "
+                        "named _LOD0, _LOD1 and so on at one place, for modelling programs "
+                        "(viewers draw all of them). msft: by MSFT_lod, where other readers show "
+                        "the first.",
+                 .group = "file",
+                 .default_from = "profile"});
         visit(&O::collision,
               Info{.name = "collision",
                    .doc = "Solids for a physics engine, the same at every level of detail: a "

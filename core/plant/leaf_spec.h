@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/params/profile.h"
 #include "core/params/shared_params.h"
@@ -18,6 +20,7 @@ struct LeafParams {
     double variation = 0.5;
     double autumn = 0.0;
     int lod = 0;
+    std::optional<int> triangles;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     FileOptions file;
@@ -45,11 +48,16 @@ struct LeafParams {
                                .doc = "From summer (0) through full autumn colour (0.5) to what "
                                       "lies on the ground (1)."});
         visit(&P::lod, lod_info);
+        visit(&P::triangles, triangles_info);
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);
         visit(&P::file, file_info);
         visit(&P::shape, Info{.name = ""});
         visit(&P::palette, Info{.name = ""});
+    }
+    /// Refuses two parameters that choose the level of detail.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        refuse_two_levels(*this, path, problems);
     }
     bool operator==(const LeafParams&) const = default;
 };

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/params/profile.h"
 #include "core/params/shared_params.h"
@@ -49,6 +51,7 @@ struct TreeParams {
     double size = 1.0;
     double autumn = 0.0;
     int lod = 0;
+    std::optional<int> triangles;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     FileOptions file;
@@ -78,6 +81,7 @@ struct TreeParams {
                             .doc = "Level of detail: the same individual with fewer branches and "
                                    "fewer, larger leaves, and smaller images.",
                             .default_from = "profile"});
+        visit(&P::triangles, triangles_info);
         visit(&P::texture_size, Info{.name = "texture_size",
                                      .unit = "texels",
                                      .doc = "Side of the images of bark and of those of leaves at "
@@ -90,6 +94,10 @@ struct TreeParams {
                           "EXT_mesh_gpu_instancing, a tenth of the bytes and of the memory. "
                           "Without wind."});
         visit(&P::look, Info{.name = ""});
+    }
+    /// Refuses two parameters that choose the level of detail.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        refuse_two_levels(*this, path, problems);
     }
     bool operator==(const TreeParams&) const = default;
 };

@@ -42,10 +42,10 @@ OutlineNodes blended(const OutlineNodes& from, const OutlineNodes& to, double t)
 
 }  // namespace
 
-Polyline polyline(const Outline& outline, int lod) {
+Polyline polyline(const Outline& outline, DetailLevel level) {
     Polyline line;
     for (const CurveName curve : curve_names) {
-        const auto rings = outline.rings(curve, lod);
+        const auto rings = outline.rings(curve, level);
         for (std::size_t i = line.empty() ? 0 : 1; i < rings.size(); ++i)
             line.emplace_back(rings[i].r, rings[i].y);
     }

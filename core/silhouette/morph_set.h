@@ -42,7 +42,7 @@ struct Certificate {
 };
 
 /// Returns the polyline of an outline's rings, base to apex, with each join once.
-[[nodiscard]] Polyline polyline(const Outline& outline, int lod);
+[[nodiscard]] Polyline polyline(const Outline& outline, DetailLevel level);
 
 /// Returns the sub-curve of an intersection on such a polyline: that of the vertex where the later
 /// of the two segments ends, or of the vertex itself that is on the wrong side of the axis. The

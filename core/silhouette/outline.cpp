@@ -57,8 +57,8 @@ double least_turning_r(const SplineSegment<glm::dvec2>& s) {
 
 }  // namespace
 
-int ring_count(CurveName curve, int lod) {
-    const Detail& detail = detail_of(lod);
+int ring_count(CurveName curve, DetailLevel level) {
+    const Detail detail = detail_of(level);
     return curve == CurveName::stem       ? detail.stem_rings
            : curve == CurveName::hymenium ? detail.hymenium_rings
                                           : detail.cap_rings;
@@ -259,8 +259,8 @@ Outline::Outline(const OutlineNodes& nodes) : stem(nodes.stem, {0.0, 1.0}) {
     cap = SubCurve(nodes.cap, onwards);
 }
 
-std::vector<OutlineSample> Outline::rings(CurveName curve, int lod) const {
-    return of(curve).sampled(ring_count(curve, lod));
+std::vector<OutlineSample> Outline::rings(CurveName curve, DetailLevel level) const {
+    return of(curve).sampled(ring_count(curve, level));
 }
 
 Outline Outline::unproven(const Silhouette& silhouette, const std::string& path) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math/spline.h"
+#include "core/mesh/detail.h"
 #include "core/model/swept.h"
 
 namespace sporeprint {
@@ -40,7 +41,7 @@ inline constexpr std::array<CurveName, 3> curve_names = {CurveName::stem, CurveN
                                                          CurveName::cap};
 
 /// Returns the number of rings of a sub-curve at a level of detail.
-[[nodiscard]] int ring_count(CurveName curve, int lod);
+[[nodiscard]] int ring_count(CurveName curve, DetailLevel level);
 
 /// A node of a sub-curve. Nodes lie at equal steps of a parameter u, 0..1, that all shapes of a set
 /// share.
@@ -144,7 +145,7 @@ struct Outline {
     /// that is swept. They depend on this outline alone, not on the set it was blended in, so the
     /// rings of a mix converge to those of a single species as its weight approaches 1. The result
     /// is empty where the sub-curve does not exist.
-    [[nodiscard]] std::vector<OutlineSample> rings(CurveName curve, int lod) const;
+    [[nodiscard]] std::vector<OutlineSample> rings(CurveName curve, DetailLevel level) const;
 };
 
 }  // namespace sporeprint

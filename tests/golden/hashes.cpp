@@ -176,6 +176,18 @@ void add_clips(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
     add({{"ramaria_formosa", 500}, {"xylaria_hypoxylon", 500}}, 0.6, 2, 9);
 }
 
+/// Adds some mushrooms between the whole levels of detail, by their number of triangles.
+void add_triangles(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    for (const char* id : {"amanita_muscaria", "boletus_edulis", "morchella_esculenta",
+                           "trametes_versicolor", "ramaria_formosa"})
+        for (const int triangles : {12'000, 2'500, 400}) {
+            MushroomSpec spec = order_of({{id, 1000}}, 0.6, 0);
+            spec.params.triangles = triangles;
+            add_mushroom(requests, atlas, "triangles/" + std::to_string(triangles) + '/' + id,
+                         spec);
+        }
+}
+
 /// Adds every effect of the weather at half and at full strength on each species of a list that can have it.
 ///
 /// throws  std::logic_error for an effect that none of these species can have: the list then lacks a species
@@ -520,6 +532,7 @@ Requests golden_requests() {
     add_mixes(requests, atlas);
     add_morphs(requests, atlas);
     add_clips(requests, atlas);
+    add_triangles(requests, atlas);
     add_weathering(requests, atlas);
     add_image_formats(requests, atlas);
     add_leaves(requests);

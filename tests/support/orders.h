@@ -161,6 +161,7 @@ inline MushroomParams arbitrary_params() {
     } else {
         params.file.lods = Lods::single;
     }
+    if (params.triangles) params.lod = lod_of(params.file.profile);
     auto& deformation = params.deformation;
     if (deformation.zone_from && deformation.zone_to &&
         *deformation.zone_to < *deformation.zone_from + 0.1)

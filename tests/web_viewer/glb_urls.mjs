@@ -93,7 +93,7 @@ const tree_images = [
     "textures=none&instancing=gpu",
 ];
 const variants = [...images, `${small}&variants=weather`];
-const lods = ["", "lod=1", "lod=2", "lod=3"];
+const lods = ["", "lod=1", "lod=2", "lod=3", "triangles=9000"];
 
 /** Returns for each product its route and its factors; the values are parts of a query. Some
  *  requests are listed alone, because each of their factors has one value. */

@@ -214,7 +214,7 @@ export function groupsOf(root: Schema, whole = "individual"): Group[] {
 
 /** Returns the group of a top-level parameter that is about the file, "" for all others. */
 function fileGroup(name: string): string {
-    return /^(lod|textures?|texture_size|animation|frames|instancing)$/.test(name) ? "file" : "";
+    return /^(lod|triangles|textures?|texture_size|animation|frames|instancing)$/.test(name) ? "file" : "";
 }
 
 /** Returns the value of a dotted name in nested `effective` values, undefined if there is none. */

@@ -73,6 +73,9 @@ export class Settings {
             this.values.delete(name);
         } else {
             this.values.set(name, value);
+            // Only one of them chooses the level of detail.
+            if (name === "lod") this.values.delete("triangles");
+            if (name === "triangles") this.values.delete("lod");
         }
     }
 
@@ -86,8 +89,10 @@ export class Settings {
         }
     }
 
-    /** Returns false for the frames and targets of a clip if there is no clip. */
+    /** Returns false for the frames and targets of a clip if there is no clip, and for a number of
+     *  triangles if a level of detail replaces it. */
     applies(field: Field, replaced: ReadonlyMap<string, Value> = new Map()): boolean {
+        if (field.name === "triangles") return !replaced.has("lod");
         if (field.name !== "frames" && field.name !== "targets") return true;
         const animation = this.field("animation");
         const chosen =

@@ -85,13 +85,27 @@ struct Products {
     }
 };
 
-constexpr std::size_t whole_meshes = 4;  // products before the colony
+constexpr std::size_t mushrooms = 2, whole_meshes = 4;  // products before the leaf, the colony
 
 FileOptions chain(Lods lods, Compression compress = Compression::none) {
     FileOptions file;
     file.compress = compress;
     file.lods = lods;
     return file;
+}
+
+/// Returns the number that a pointer names; -1 if it names none.
+double number_at(const Value& json, const std::string& pointer) {
+    const Value* found = json.at_pointer(pointer);
+    return found && found->is_number() ? found->as_number() : -1.0;
+}
+
+/// Returns the place of a whole level among the levels of a file.
+std::size_t index_of(const Grown& file, int lod) {
+    const Value json = json_chunk(joined(file.glb));
+    std::size_t at = 0;
+    while (number_at(json, "/asset/extras/levels/" + std::to_string(at) + "/lod") != lod) ++at;
+    return at;
 }
 
 TEST(Levels, OfAFileAreTheMeshesOfFilesOfTheirOwn) {
@@ -101,22 +115,18 @@ TEST(Levels, OfAFileAreTheMeshesOfFilesOfTheirOwn) {
         for (std::size_t i = 0; i < whole_meshes; ++i) {
             const ReadScene all = expect_scene(joined(chains[i].glb)),
                             one = expect_scene(joined(alone[i].glb));
-            const auto at = static_cast<std::size_t>(lod - 1);
-            ASSERT_EQ(all.meshes.size(), 3u);
+            const std::size_t at = index_of(chains[i], lod);
             ASSERT_EQ(all.meshes[at].size(), one.meshes[0].size());
             for (std::size_t k = 0; k < one.meshes[0].size(); ++k)
                 EXPECT_TRUE(same_bits(all.meshes[at][k].mesh, one.meshes[0][k].mesh)) << i << lod;
-            EXPECT_EQ(all.nodes[at].name, one.nodes[0].name);
+            if (i < mushrooms)
+                EXPECT_NE(all.nodes[at].name, one.nodes[0].name) << "numbered within the file";
+            else
+                EXPECT_EQ(all.nodes[at].name, one.nodes[0].name);
             EXPECT_EQ(all.images, expect_scene(joined(Products(1, {}).grown()[i].glb)).images)
                 << "one set, that of the first level";
         }
     }
-}
-
-/// Returns the number that a pointer names; -1 if it names none.
-double number_at(const Value& json, const std::string& pointer) {
-    const Value* found = json.at_pointer(pointer);
-    return found && found->is_number() ? found->as_number() : -1.0;
 }
 
 TEST(Levels, ByMsftLodAreOutsideTheSceneButForTheFirst) {
@@ -128,8 +138,8 @@ TEST(Levels, ByMsftLodAreOutsideTheSceneButForTheFirst) {
             const Value& first = json.find("nodes")->items()[root];
             const auto& ids = first.at_pointer("/extensions/MSFT_lod/ids")->items();
             const auto& coverages = first.at_pointer("/extras/MSFT_screencoverage")->items();
-            ASSERT_EQ(ids.size(), 3u);
-            ASSERT_EQ(coverages.size(), 4u);
+            ASSERT_EQ(coverages.size(), json.at_pointer("/asset/extras/levels")->items().size());
+            ASSERT_EQ(ids.size(), coverages.size() - 1);
             double before = 1.0;
             for (std::size_t i = 0; i < coverages.size(); ++i) {
                 EXPECT_EQ(coverages[i].as_number(),
@@ -141,8 +151,11 @@ TEST(Levels, ByMsftLodAreOutsideTheSceneButForTheFirst) {
             for (std::size_t i = 0; i < ids.size(); ++i) {
                 const Value& level =
                     json.find("nodes")->items()[static_cast<std::size_t>(ids[i].as_number())];
-                EXPECT_TRUE(
-                    level.find("name")->as_string().ends_with("_LOD" + std::to_string(i + 1)));
+                const std::string name(level.find("name")->as_string());
+                EXPECT_TRUE(name.ends_with("_LOD" + std::to_string(i + 1))) << name;
+                const Value* stated =
+                    json.at_pointer("/asset/extras/levels/" + std::to_string(i + 1) + "/name");
+                EXPECT_TRUE(!stated || stated->as_string() == name) << name;
                 EXPECT_EQ(level.find("translation"), nullptr) << "one pivot";
             }
             EXPECT_EQ(dump(*json.find("extensionsUsed")).find("MSFT_lod") != std::string::npos,
@@ -203,6 +216,17 @@ TEST(Levels, AreAllEstimated) {
     within(estimate(all.tree), files[3], estimate(one.tree));
     within(estimate(all.colony, typical_individual(all.colony, atlas()), atlas()), files[4],
            estimate(one.colony, typical_individual(one.colony, atlas()), atlas()));
+}
+
+TEST(Levels, OfAMushroomAreNumberedFromZero) {
+    const Value json = json_chunk(joined(Products(1, chain(Lods::nodes)).grown()[0].glb));
+    const auto& levels = json.at_pointer("/asset/extras/levels")->items();
+    EXPECT_GT(levels.size(), 3u) << "with levels between the whole ones";
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string name(levels[i].find("name")->as_string());
+        EXPECT_TRUE(name.starts_with("amanita_muscaria_s1_a60_")) << name;
+        EXPECT_TRUE(name.ends_with("_from1_LOD" + std::to_string(i))) << name;
+    }
 }
 
 TEST(Levels, AreNotAnimated) {

@@ -54,13 +54,14 @@ TEST(Names, StateSpeciesSeedAgeAndLevel) {
     EXPECT_EQ(product_name(spec), "amanita_muscaria_s7_a60") << "levels are one individual";
     EXPECT_EQ(level_name(product_name(spec), 2), "amanita_muscaria_s7_a60_LOD2");
     EXPECT_EQ(skin_name(spec), "amanita_muscaria_s7_a60_skin_LOD2");
-    EXPECT_EQ(file_name(product_name(spec), 2, spec.params.file),
+    EXPECT_EQ(file_name(product_name(spec), 2, {}, spec.params.file),
               "amanita_muscaria_s7_a60_LOD2_meshopt");
     FileOptions chain;
     chain.lods = Lods::msft;
-    EXPECT_EQ(file_name("x", 0, chain), "x_LOD0_msft");
+    EXPECT_EQ(file_name("x", 0, {}, chain), "x_LOD0_msft");
+    EXPECT_EQ(file_name("x", 0, 9000, chain), "x_t9000_LOD0_msft");
     chain.image_format = ImageFormats::webp;
-    EXPECT_EQ(file_name("x", 0, chain), "x_LOD0_webp_msft");
+    EXPECT_EQ(file_name("x", 0, {}, chain), "x_LOD0_webp_msft");
     spec.mix = {{"boletus_edulis", 300}, {"amanita_muscaria", 700}};
     EXPECT_EQ(product_name(spec), "amanita_muscaria_700_boletus_edulis_300_s7_a60");
     std::swap(spec.mix[0], spec.mix[1]);

@@ -52,6 +52,8 @@ interface LevelExtras {
     screen_coverage: number;
     /** Index of its node, in files of sets. */
     node?: number;
+    /** Name of its node, where levels lie between the whole ones. */
+    name?: string;
 }
 
 interface BoundsExtras {
@@ -110,9 +112,10 @@ export async function prototypesOf(gltf: GLTF): Promise<Prototype[]> {
             name,
             bounds: boxOf(bounds_m),
             levels: await Promise.all(
-                levels.map(async ({ lod, screen_coverage, node }) => {
-                    const index =
-                        node ?? json.nodes.findIndex((one) => one.name?.endsWith(`_LOD${lod}`));
+                levels.map(async ({ lod, screen_coverage, node, name: own }) => {
+                    const isOf = (name: string | undefined): boolean =>
+                        own === undefined ? !!name?.endsWith(`_LOD${lod}`) : name === own;
+                    const index = node ?? json.nodes.findIndex(({ name }) => isOf(name));
                     if (index < 0) throw new Error(`the file has no node of level ${lod}`);
                     const object = (await gltf.parser.getDependency("node", index)) as Object3D;
                     const place = new Matrix4().makeTranslation(

@@ -13,6 +13,8 @@ extends Node3D
 @export var parameters: Dictionary = {}
 ## The finest level of detail.
 @export_range(0, 3) var lod := 1
+## Begins with the level of detail nearest to this number of triangles instead; 0: with `lod`.
+@export_range(0, 10000000) var triangles := 0
 ## Whether to add a static body for physics.
 @export var collision := false
 ## Whether wind moves it; see sporeprint_wind.gdshader.
@@ -62,8 +64,12 @@ func load_model() -> Array[GeometryInstance3D]:
 ## Returns the path of the file below the server.
 func path() -> String:
 	# Both are named, since the profile sets them for some products.
-	var query := {"profile": "godot", "lods": "nodes", "lod": lod,
+	var query := {"profile": "godot", "lods": "nodes",
 			"collision": "omi" if collision else "none", "wind": "uv" if wind else "none"}
+	if triangles > 0:
+		query["triangles"] = triangles
+	else:
+		query["lod"] = lod
 	query.merge(parameters, true)
 	return "/v1/%s.glb?%s" % [product, HTTPClient.new().query_string_from_dict(query)]
 
