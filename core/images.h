@@ -24,8 +24,8 @@ constexpr const char* name(ImageKind kind) {
     return nullptr;
 }
 
-/// The format of encoded images.
-enum class ImageFormat { jpg, webp };
+/// The format of encoded images. PNG is that of a base colour with alpha beside JPEG images.
+enum class ImageFormat { jpg, webp, png };
 
 constexpr const char* name(ImageFormat format) {
     switch (format) {
@@ -33,13 +33,23 @@ constexpr const char* name(ImageFormat format) {
             return "jpg";
         case ImageFormat::webp:
             return "webp";
+        case ImageFormat::png:
+            return "png";
     }
     return nullptr;
 }
 
 /// Returns the media type of a format.
 constexpr const char* media_type(ImageFormat format) {
-    return format == ImageFormat::webp ? "image/webp" : "image/jpeg";
+    switch (format) {
+        case ImageFormat::jpg:
+            break;
+        case ImageFormat::webp:
+            return "image/webp";
+        case ImageFormat::png:
+            return "image/png";
+    }
+    return "image/jpeg";
 }
 
 /// The three images before encoding, indexed by ImageKind: `side` rows of `side` RGB texels each.
@@ -54,9 +64,16 @@ struct RawImages {
 /// Three encoded files, indexed by ImageKind.
 struct ImageSet {
     std::array<Slice, 3> files;
-    ImageFormat format = ImageFormat::jpg;
+    ImageFormat format = ImageFormat::jpg;  ///< jpg or webp
+    bool has_alpha = false;                 ///< of the base colour
     [[nodiscard]] std::size_t bytes() const {
         return files[0].size + files[1].size + files[2].size;
+    }
+    /// Returns the format of one of the files: JPEG has no alpha.
+    [[nodiscard]] ImageFormat format_of(ImageKind kind) const {
+        return has_alpha && kind == ImageKind::base_color && format == ImageFormat::jpg
+                   ? ImageFormat::png
+                   : format;
     }
 };
 

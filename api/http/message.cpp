@@ -40,6 +40,8 @@ constexpr Term terms[] = {
     {&Cost::pixels, 0.008},  // a PNG of 2048 x 2048 takes 26 ms when flat, 60 ms when noisy
     {&Cost::shadow_triangles, 0.04},
     {&Cost::samples, 0.03},
+    {&Cost::impostor_triangles, 0.03},
+    {&Cost::impostor_texels, 0.25},  // 0.15 of a mushroom, 0.3 of a tree
     {&Cost::json_bytes, 0.005},
     {&Cost::json_values, 0.03},
     {&Cost::bytes, 1.0 / 2048.0},

@@ -62,12 +62,14 @@ struct Cost {
     std::uint64_t bark_atlases = 0, bark_texels = 0;  ///< of bark
     std::uint64_t webp_texels = 0;                    ///< of all images that are encoded as WebP
     std::uint64_t pixels = 0;                         ///< of images that are decoded
-    std::uint64_t shadow_triangles = 0;  ///< of pictures: triangles times lights times views
-    std::uint64_t samples = 0;           ///< of pictures
-    std::uint64_t json_bytes = 0;        ///< JSON of the client that is parsed
-    std::uint64_t json_values = 0;       ///< approximate number of values in it
-    std::uint64_t bytes = 0;             ///< of the file that is written
-    std::uint64_t gzip_bytes = 0;        ///< of these, compressed by gzip
+    std::uint64_t shadow_triangles = 0;    ///< of pictures: triangles times lights times views
+    std::uint64_t samples = 0;             ///< of pictures
+    std::uint64_t impostor_triangles = 0;  ///< of what impostors show, times their frames
+    std::uint64_t impostor_texels = 0;     ///< of all frames
+    std::uint64_t json_bytes = 0;          ///< JSON of the client that is parsed
+    std::uint64_t json_values = 0;         ///< approximate number of values in it
+    std::uint64_t bytes = 0;               ///< of the file that is written
+    std::uint64_t gzip_bytes = 0;          ///< of these, compressed by gzip
 
     /// Returns the total cost: approximately the microseconds that one processor core of 2020
     /// needs, with 50 for any request. message.cpp has the time of each count.

@@ -11,6 +11,7 @@
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/colony.h"
+#include "core/grow/impostor.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"
 #include "core/params/canonical.h"
@@ -85,12 +86,28 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     if (spec.params.file.collision != CollisionFormat::none) cost.solids = distinct;
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;
-    if (spec.params.textures != Textures::embedded) return cost;
+    if (spec.params.textures != Textures::embedded || estimated.texels == 0) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     for (int set = 0; set < image_sets(spec.params.variants); ++set)
         cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
                                estimated.texels / atlases);
     return cost;
+}
+
+/// Returns the same with that of an impostor: what it shows is generated too.
+///
+/// source  estimate of impostor_source()
+Cost cost_with_impostor(const ColonySpec& spec, const Estimate& estimated, const Estimate& source,
+                        Product product, const Atlas& atlas) {
+    if (!has_impostor(spec.params.lod, spec.params.file))
+        return cost_of(spec, estimated, product, atlas);
+    Cost cost = cost_of(spec, estimated, product, atlas);
+    // The places of an impostor alone, and its box, are those of what it shows.
+    if (spec.params.lod == impostor_lod) cost.placed_vertices += source.vertices;
+    if (product == Product::json) return cost;
+    return cost + cost_of(impostor_source(spec), source, product, atlas) +
+           cost_of_impostor(spec.params.file, estimated,
+                            source.triangles * Colonies::instances_of_each(spec));
 }
 
 bool shows_roots(const ColonySpec& spec, const Atlas& atlas) {
@@ -124,6 +141,9 @@ Estimate guessed(const ColonySpec& spec) {
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     guess.bytes =
         60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
+    guess.triangles = 2 * guess.vertices;
+    if (has_impostor(params.lod, params.file))
+        add_impostor(guess, params.texture_size, params.file);
     return guess;
 }
 
@@ -152,7 +172,13 @@ Cost Colonies::cost(const Context& context, const ColonySpec& spec, Product prod
     const Individual& typical = resolved_individual(context, spec, caches, resolved);
     const Estimate estimated = estimate(spec, typical, *context.atlas);
     refuse_over_budget(context.options, estimated, spec.mix.size() > 1, false, spec.params.file);
-    return cost_of(spec, estimated, product, *context.atlas);
+    Estimate source;
+    if (has_impostor(spec.params.lod, spec.params.file)) {
+        const ColonySpec shown = impostor_source(spec);
+        source = estimate(shown, typical, *context.atlas);
+        refuse_over_budget(context.options, source, spec.mix.size() > 1, false, shown.params.file);
+    }
+    return cost_with_impostor(spec, estimated, source, product, *context.atlas);
 }
 
 Cost Colonies::search(const ColonySpec& spec, const Atlas& atlas) {
@@ -161,7 +187,7 @@ Cost Colonies::search(const ColonySpec& spec, const Atlas& atlas) {
 
 std::optional<Cost> Colonies::guess(const ColonySpec& spec, Product product, const Atlas& atlas) {
     if (shows_roots(spec, atlas)) return std::nullopt;
-    return cost_of(spec, guessed(spec), product, atlas);
+    return cost_with_impostor(spec, guessed(spec), guessed(impostor_source(spec)), product, atlas);
 }
 
 std::uint64_t Colonies::instances_of_each(const ColonySpec& spec) {

@@ -12,6 +12,7 @@
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/collision.h"
+#include "core/grow/impostor.h"
 #include "core/grow/levels.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
@@ -162,6 +163,20 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
 /// Returns about the number of triangles of a mushroom at an LOD.
 double usual_triangles(int lod) { return static_cast<double>(24'000 >> (2 * lod)); }
 
+/// Returns the same with that of an impostor: what it shows is generated too.
+///
+/// source  estimate of impostor_source()
+Cost cost_with_impostor(const MushroomSpec& spec, const Estimate& estimated, const Estimate& source,
+                        Product product, const Atlas& atlas) {
+    if (!has_impostor(spec.params.lod, spec.params.file))
+        return cost_of(spec, estimated, product, atlas);
+    Cost cost = cost_of(impostor_source(spec), source, product, atlas);
+    if (spec.params.lod != impostor_lod) cost += cost_of(spec, estimated, product, atlas);
+    if (spec.params.file.collision != CollisionFormat::none) cost.solids = 1;
+    if (product == Product::json) return cost;
+    return cost + cost_of_impostor(spec.params.file, estimated, source.triangles);
+}
+
 /// Returns an approximate estimate of a request whose individual is not resolved yet.
 Estimate guessed(const MushroomSpec& spec) {
     const MushroomParams& params = spec.params;
@@ -174,6 +189,9 @@ Estimate guessed(const MushroomSpec& spec) {
         // Where a file has several levels, there is one between this one and the next.
         if (params.file.lods != Lods::single) guess.vertices += std::uint64_t{6'000} >> (2 * lod);
     }
+    guess.triangles = 2 * guess.vertices;
+    if (has_impostor(params.lod, params.file))
+        add_impostor(guess, params.texture_size, params.file);
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     guess.bytes =
@@ -236,7 +254,12 @@ std::string Mushrooms::file_name(const MushroomSpec& spec, Product product, cons
 
 Cost Mushrooms::cost(const Context& context, const MushroomSpec& spec, Product product,
                      const Caches& caches, Resolved& resolved) {
-    return cost_of(spec, weighed(context, spec, caches, resolved), product, *context.atlas);
+    const Estimate estimated = weighed(context, spec, caches, resolved);
+    Estimate source;
+    if (has_impostor(spec.params.lod, spec.params.file))
+        source =
+            estimate(impostor_source(spec), resolved_individual(context, spec, caches, resolved));
+    return cost_with_impostor(spec, estimated, source, product, *context.atlas);
 }
 
 Cost Mushrooms::search(const MushroomSpec& spec, const Atlas& atlas) {
@@ -244,7 +267,7 @@ Cost Mushrooms::search(const MushroomSpec& spec, const Atlas& atlas) {
 }
 
 Cost Mushrooms::guess(const MushroomSpec& spec, Product product, const Atlas& atlas) {
-    return cost_of(spec, guessed(spec), product, atlas);
+    return cost_with_impostor(spec, guessed(spec), guessed(impostor_source(spec)), product, atlas);
 }
 
 ImageUrls Mushrooms::image_urls(const Context& context, const MushroomSpec& spec,
@@ -266,7 +289,9 @@ Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Reso
     execution.observer(Step::resolve);
     const Individual& individual = resolved_individual(context, spec, execution.caches, resolved);
     execution.observer(Step::build);
-    const Bounds box = bounds(mushroom_mesh(spec, individual));
+    const bool is_impostor = spec.params.lod == impostor_lod;
+    const Bounds box =
+        bounds(mushroom_mesh(is_impostor ? impostor_source(spec) : spec, individual));
     execution.observer(Step::pack);
     Value body = Value::object();
     // The URL of the GLB, which users copy into their applications.

@@ -54,7 +54,7 @@ Value picture_schema(Value product) {
     // Without a profile the default of the level of detail is that of core.
     Value& lod = *properties.find("lod");
     lod.erase("x-default-from");
-    lod.set("default", 0);
+    lod.set("default", 0).set("maximum", last_lod);
     Value picture = schema<PictureParams>();
     for (auto& [name, property] : picture.find("properties")->members())
         properties.set(name, property);

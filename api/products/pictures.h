@@ -153,6 +153,11 @@ Plan plan_picture(RouteCall& call, const PictureQuery& query, Requested requeste
     using Spec = decltype(requested.spec);
     if (has_addresses(requested.spec.params.textures))
         call.errors.add(422, "textures", "a picture links to no images; ask for embedded or none");
+    if (requested.spec.params.lod > last_lod)
+        call.errors.add(400, "lod",
+                        std::to_string(requested.spec.params.lod) + " is outside 0.." +
+                            std::to_string(last_lod) +
+                            " of a picture, which shows meshes; ask for one of these");
     PictureRequest<Spec> picture{{std::move(requested.spec), read_picture(query, call.errors)},
                                  Product::png,
                                  std::move(requested.version)};

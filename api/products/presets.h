@@ -228,6 +228,7 @@ struct Measures {
 ///   cost_of_describing(spec)               optional: cost of its JSON beside that of growing
 ///   cost_of_painting(spec, atlas)          cost of painting all of its images
 ///   add_details(spec, body)                optional: adds further members to its JSON
+///   source(spec)                           optional: the spec of what an impostor shows
 template <class Kind>
 struct PresetProduct {
     using Spec = typename Kind::Spec;
@@ -252,6 +253,24 @@ struct PresetProduct {
                      Resolved&) {
         const Estimate estimated = estimate(spec);
         refuse_over_budget(context.options, estimated, false, false, spec.params.file);
+        if constexpr (requires { Kind::source(spec); })
+            if (has_impostor(spec.params.lod, spec.params.file)) {
+                // What an impostor shows is generated too.
+                const Spec shown = Kind::source(spec);
+                const Estimate source = estimate(shown);
+                refuse_over_budget(context.options, source, false, false, shown.params.file);
+                Cost cost = cost_of_levels(context, shown, source, product);
+                if (spec.params.lod != impostor_lod)
+                    cost += cost_of_levels(context, spec, estimated, product);
+                if (product == Product::json) return cost;
+                return cost + cost_of_impostor(spec.params.file, estimated, source.triangles);
+            }
+        return cost_of_levels(context, spec, estimated, product);
+    }
+
+    /// Returns the cost of the levels of detail that are meshes.
+    static Cost cost_of_levels(const Context& context, const Spec& spec, const Estimate& estimated,
+                               Product product) {
         Cost cost = Kind::cost_of_growing(spec);
         cost.placed_vertices = estimated.vertices;
         if (product == Product::json) {

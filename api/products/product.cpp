@@ -1,6 +1,7 @@
 #include "api/products/product.h"
 
 #include "api/http/encoding.h"
+#include "core/impostor/frames.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
 #include "core/version.h"
@@ -165,6 +166,19 @@ Cost cost_of_images(const FileOptions& file, const Cost& painting, std::uint64_t
     if (file.image_format == ImageFormats::jpg) return painting;
     Cost cost = painting + Cost{.webp_texels = texels};
     return file.image_format == ImageFormats::webp_jpg ? cost + painting : cost;
+}
+
+Cost cost_of_impostor(const FileOptions& file, const Estimate& estimated, std::uint64_t triangles) {
+    constexpr std::uint64_t most = 1'000'000;
+    if (triangles > most)
+        throw Impossible(file.impostor ? "/impostor" : "/lod",
+                         "each picture of the impostor would show about " +
+                             std::to_string(triangles) + " triangles; at most " +
+                             std::to_string(most) + " are drawn");
+    const std::uint64_t texels = estimated.impostor_texels;
+    Cost cost{.impostor_triangles = frame_count * triangles, .impostor_texels = texels / 3};
+    if (file.image_format != ImageFormats::jpg) cost.webp_texels = texels;
+    return cost;
 }
 
 std::optional<ImageKind> read_image(std::string_view image, ValidationErrors& errors) {

@@ -153,6 +153,15 @@ template <class Image, class Model>
 [[nodiscard]] Cost cost_of_images(const FileOptions& file, const Cost& painting,
                                   std::uint64_t texels);
 
+/// Returns the cost of drawing and encoding the frames of an impostor, beside that of generating what
+/// they show.
+///
+/// estimated  estimate of the file
+/// triangles  that each frame shows, each instance counted
+/// throws     Impossible (path "/impostor" or "/lod") for more than a million
+[[nodiscard]] Cost cost_of_impostor(const FileOptions& file, const Estimate& estimated,
+                                    std::uint64_t triangles);
+
 /// Returns members of the JSON description of a product.
 [[nodiscard]] Value description(const Estimate& estimate);
 [[nodiscard]] Value description(const Bounds& bounds);

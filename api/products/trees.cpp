@@ -88,7 +88,7 @@ Measures Trees::measure(const TreeSpec& spec, const Atlas& atlas,
     execution.observer(Step::build);
     const std::vector<TreeMeshes> meshes = level_meshes(spec, atlas);
     execution.observer(Step::pack);
-    const Bounds box = bounds(meshes.front());
+    const Bounds box = bounds(meshes.empty() ? tree_meshes(spec, atlas) : meshes.front());
     return {measured(spec, meshes), box, levels_of(spec, atlas, box)};
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "api/products/presets.h"
+#include "core/grow/impostor.h"
 #include "core/grow/tree.h"
 #include "core/plant/tree_spec.h"
 
@@ -46,6 +47,7 @@ struct Trees {
                       const ExecutionContext& execution);
     static Measures measure(const TreeSpec& spec, const Atlas& atlas,
                             const ExecutionContext& execution);
+    static TreeSpec source(const TreeSpec& spec) { return impostor_source(spec); }
     static Cost cost_of_growing(const TreeSpec& spec);
     static Cost cost_of_paint(const TreePaint& paint);  ///< of these images
     static Cost cost_of_painting(const TreeSpec& spec, const Atlas& atlas);

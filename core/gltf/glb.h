@@ -57,6 +57,10 @@ struct GlbMaterial {
     const ImageSet* fallback = nullptr;
     std::array<std::string, 3> fallback_urls = {};
     TileLooks tile_looks = {};  ///< of a material with embedded images
+    /// Of an impostor: texels of the base colour with less alpha are not drawn, and the red channel of
+    /// the third image is no occlusion. 0 for images without alpha. Embedded images only.
+    double alpha_cutoff = 0.0;
+    std::string extras_json = {};  ///< a JSON object; empty for none. Embedded images only.
 };
 
 /// A part of a mesh with one material: one draw call.

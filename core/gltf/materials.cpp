@@ -19,7 +19,8 @@ std::size_t TextureTables::add_images(const std::string& name, const ImageSet* f
         append_quoted((images += separator(images)) += "{\"name\":",
                       name + '_' + sporeprint::name(static_cast<ImageKind>(i)));
         if (files) {
-            add_file(files->files[i], media_type(files->format), tables);
+            add_file(files->files[i], media_type(files->format_of(static_cast<ImageKind>(i))),
+                     tables);
         } else {
             append_quoted(images += ",\"uri\":", urls[i]);
         }
@@ -209,7 +210,13 @@ std::string material_json(const GlbMaterial& material, bool extended, TextureTab
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);
     append(json += "},\"occlusionTexture\":{\"index\":", first + 2);
-    return json + "}" +
+    // What an impostor has in place of occlusion is for shaders alone.
+    json += material.alpha_cutoff > 0.0 ? ",\"strength\":0}" : "}";
+    if (material.alpha_cutoff > 0.0)
+        append(json += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":",
+               static_cast<float>(material.alpha_cutoff));
+    if (!material.extras_json.empty()) (json += ",\"extras\":") += material.extras_json;
+    return json +
            material_extensions_json(material, first, extended, texture_tables, tables, used) + "}";
 }
 

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "core/colony/colony_skin.h"
+#include "core/grow/impostor.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"
@@ -103,7 +105,7 @@ int segments_of(const ColonyRoots& growth, int lod) {
 
 std::uint64_t image_texels(const ColonySpec& spec) {
     const auto side = static_cast<std::uint64_t>(spec.params.texture_size) >> spec.params.lod;
-    return textured(spec) ? 3 * side * side : 0;
+    return textured(spec) && spec.params.lod != impostor_lod ? 3 * side * side : 0;
 }
 
 /// Adds one level of detail of a file.
@@ -120,6 +122,8 @@ void add_images(Estimate& e, const ColonySpec& spec) {
     e.texels = texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     add_image_bytes(e, static_cast<std::uint64_t>(image_sets(spec.params.variants)) * texels / 3,
                     spec.params.textures, spec.params.file);
+    if (has_impostor(spec.params.lod, spec.params.file))
+        add_impostor(e, spec.params.texture_size, spec.params.file);
 }
 
 void add_solids(Estimate& e, const ColonySpec& spec) {
@@ -385,6 +389,17 @@ void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin,
     add_member_nodes(scene, colony, mesh_of);
 }
 
+/// Adds the material, the mesh and the node of an impostor.
+///
+/// product  product_name()
+/// name     level_name()
+void add_cards(GlbScene& scene, const Impostor& impostor, const std::string& product,
+               const std::string& name) {
+    const std::size_t material = add_material(scene, impostor, product);
+    scene.nodes.push_back({.name = name + "_cards", .mesh = scene.meshes.size()});
+    scene.meshes.push_back({name + "_cards", {{&impostor.cards, material, {}}}});
+}
+
 /// What placement, collision and wind need of the distinct individuals of a colony.
 struct ModelSet {
     std::vector<ColonyModel> models;
@@ -468,6 +483,7 @@ Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas
     const ColonyTraits traits = colony_traits(spec, atlas);
     refuse_impossible(params.file, params.textures);
     refuse_impossible_variants(params.variants, params.textures, params.file);
+    refuse_impossible_impostor(params.lod, params.file, params.textures, params.variants);
     const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
@@ -496,6 +512,8 @@ std::vector<Level> levels_of(const ColonySpec& spec, const Individual& typical, 
         errors.push_back(
             outline_error(typical, mesh_lod(typical, lod), params.size * fit.cap_radius));
     }
+    if (has_impostor(params.lod, params.file))
+        add_impostor_level(levels, errors, box, params.texture_size);
     set_coverages(levels, box, errors);
     return levels;
 }
@@ -505,7 +523,7 @@ Estimate measured(const ColonySpec& spec, const Colony& colony) {
     const auto add = [&](const MeshCount& count) {
         add_level(e, spec, count.vertices, count.triangles, colony.members.size());
     };
-    add(count_of(colony.skin, colony.models));
+    if (spec.params.lod != impostor_lod) add(count_of(colony.skin, colony.models));
     for (const ColonyLevel& level : colony.farther) add(count_of(level.skin, level.models));
     add_images(e, spec);
     add_solids(e, spec);
@@ -515,6 +533,16 @@ Estimate measured(const ColonySpec& spec, const Colony& colony) {
 Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
                     const ExecutionContext& execution) {
     const ColonyParams& params = spec.params;
+    if (params.lod == impostor_lod) {
+        ColonySpec shown = spec;
+        shown.params.lod = impostor_source_lod;
+        shown.params.file.lods = Lods::single;
+        shown.params.file.impostor = false;
+        Colony colony = colony_parts(shown, typical, atlas, execution);
+        colony.effective.lod = params.lod;
+        colony.effective.file = params.file;
+        return colony;
+    }
     const ColonyTraits traits = colony_traits(spec, atlas);
     StemFit fit = fit_of(typical, traits);
     const double painted_length = fit.length;
@@ -626,29 +654,43 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     const ColonyParams& params = spec.params;
     refuse_impossible(params.file, params.textures);
     refuse_impossible_variants(params.variants, params.textures, params.file);
+    refuse_impossible_impostor(params.lod, params.file, params.textures, params.variants);
     Colony colony = colony_parts(spec, typical, atlas, execution);
+    std::optional<Impostor> impostor;
+    if (has_impostor(params.lod, params.file)) {
+        impostor = impostor_of(
+            [&](const Extras& drawing) {
+                (void)grow_colony(impostor_source(spec), typical, atlas, drawing, execution);
+            },
+            frame_side_of(params.texture_size), params.file, execution);
+        if (colony.wind.format != WindFormat::none) add_sway(*impostor, colony.wind);
+    }
+    const bool has_meshes = params.lod != impostor_lod;
     const Bounds box = bounds(colony);
     GlbScene scene;
     set_options(scene, params.file);
-    scene.materials.push_back({.name = skin_name(spec), .look = look_of(typical.model)});
     scene.stands_on_ground = !colony_traits(spec, atlas).lateral;
     const MushroomSpec painted = paint_mushroom_spec(spec);
     const auto painting_of = [&](const MushroomSpec& one) {
         return paint_spec_of(spec, one, atlas, execution.caches);
     };
-    const EmbeddedImages images =
-        attach_images(scene.materials.front(), params.textures, params.file, extras.image_urls,
-                      execution, [&](ImageFormat format) {
-                          return painted_images(painting_of(painted), execution, format);
-                      });
-    const std::vector<EmbeddedImages> variant_images =
-        add_variants(scene, variants_of(painted, typical), params.textures, params.file, extras,
-                     execution, painting_of);
+    EmbeddedImages images;
+    std::vector<EmbeddedImages> variant_images;
+    if (has_meshes) {
+        scene.materials.push_back({.name = skin_name(spec), .look = look_of(typical.model)});
+        images = attach_images(scene.materials.front(), params.textures, params.file,
+                               extras.image_urls, execution, [&](ImageFormat format) {
+                                   return painted_images(painting_of(painted), execution, format);
+                               });
+        variant_images = add_variants(scene, variants_of(painted, typical), params.textures,
+                                      params.file, extras, execution, painting_of);
+    }
     execution.observer(Step::pack);
     std::vector<Level> levels{{params.lod}};
     if (params.file.lods != Lods::single) {
         levels = levels_of(spec, typical, atlas, box);
-        for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::size_t meshes = levels.size() - (impostor ? 1 : 0);
+        for (std::size_t i = 0; i < meshes; ++i) {
             const MeshCount count =
                 i == 0 ? count_of(colony.skin, colony.models)
                        : count_of(colony.farther[i - 1].skin, colony.farther[i - 1].models);
@@ -657,11 +699,14 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
         }
     }
     scene.extras_json =
-        dump(extras_value(extras, write(colony.effective), box, instanced_triangles(colony),
+        dump(extras_value(extras, write(colony.effective), box,
+                          has_meshes ? instanced_triangles(colony) : impostor->cards.triangles(),
                           {levels, params.file.lods}, colony.wind));
     add_grouped_levels(scene, product_name(spec), levels, params.file.lods,
                        [&](std::size_t i, const std::string& name) {
-                           if (i == 0)
+                           if (impostor && i + 1 == levels.size())
+                               add_cards(scene, *impostor, product_name(spec), name);
+                           else if (i == 0)
                                add_colony(scene, colony, colony.skin, colony.models, name);
                            else
                                add_colony(scene, colony, colony.farther[i - 1].skin,

@@ -28,6 +28,12 @@ void add_images(Estimate& e, const LeafParams& params) {
 /// lamina: about that of the presets at LOD 1 and 2; at LOD 3 that of teeth and lobes.
 constexpr std::array<double, 4> border_errors = {0.0, 0.01, 0.03, 0.1};
 
+void refuse_impostor(const FileOptions& file) {
+    if (file.impostor)
+        throw Impossible("/impostor",
+                         "'true' is impossible: a leaf has no impostor; ask for false");
+}
+
 void refuse_collision(const FileOptions& file) {
     if (file.collision != CollisionFormat::none)
         throw Impossible("/collision", std::string("'") + name(file.collision) +
@@ -36,6 +42,7 @@ void refuse_collision(const FileOptions& file) {
 
 /// Returns the mesh of each level of detail of a file, finest first.
 std::vector<Mesh> level_meshes(LeafSpec spec) {
+    require_valid(spec.params);
     std::vector<Mesh> meshes;
     for (const int lod : levels_in_file(spec.params.lod, spec.params.file)) {
         spec.params.lod = lod;
@@ -84,6 +91,7 @@ Estimate estimate(const LeafSpec& spec) {
     if (spec.params.triangles) return estimate(at_level(spec));
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
+    refuse_impostor(params.file);
     refuse_impossible(params.file, params.textures);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
@@ -140,6 +148,7 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     if (spec.params.triangles) return grow_leaf(at_level(spec), atlas, extras, execution);
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
+    refuse_impostor(params.file);
     refuse_impossible(params.file, params.textures);
     execution.observer(Step::build);
     std::vector<Mesh> meshes = level_meshes(spec);

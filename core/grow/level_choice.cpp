@@ -96,6 +96,7 @@ DetailLevel first_level(const MushroomSpec& spec, const Individual& individual) 
 }
 
 std::vector<DetailLevel> levels_from(DetailLevel first, const Individual& individual, bool grows) {
+    if (first > last_whole) return {};
     std::vector<DetailLevel> levels{first};
     const double count = first.is_whole() ? 0.0 : triangles_at(individual, first, grows);
     for (int lod = first.lod + 1; lod <= last_whole; ++lod)
@@ -106,6 +107,7 @@ std::vector<DetailLevel> levels_from(DetailLevel first, const Individual& indivi
 
 std::vector<DetailLevel> levels_in_file(const MushroomSpec& spec, const Individual& individual) {
     const DetailLevel first = first_level(spec, individual);
+    if (spec.params.lod == impostor_lod) return {};
     if (spec.params.file.lods == Lods::single) return {first};
     const std::vector<DetailLevel> whole = levels_from(first, individual, grows(spec));
     std::vector<Counted> between;

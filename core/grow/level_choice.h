@@ -21,7 +21,7 @@ inline constexpr double largest_step = 4.2, least_step = 1.8;
 /// cost  that of at most 25 body_count()
 [[nodiscard]] DetailLevel first_level(const MushroomSpec& spec, const Individual& individual);
 
-/// Returns the level and the whole ones below it.
+/// Returns the level and the whole ones below it; nothing for that of an impostor, which has no mesh.
 ///
 /// grows  whether counts include parts that are absent at this age
 [[nodiscard]] std::vector<DetailLevel> levels_from(DetailLevel first, const Individual& individual,
@@ -29,7 +29,7 @@ inline constexpr double largest_step = 4.2, least_step = 1.8;
 
 /// Returns the levels of a file, finest first: the first one, and in a file of several levels the
 /// whole ones below it. Where two differ by more than `largest_step`, levels are inserted, as coarse as
-/// that allows, because bytes and memory are those of the finer levels.
+/// that allows, because bytes and memory are those of the finer levels. An impostor is none of them.
 [[nodiscard]] std::vector<DetailLevel> levels_in_file(const MushroomSpec& spec,
                                                       const Individual& individual);
 

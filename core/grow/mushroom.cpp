@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/geometry/branch_plan.h"
 #include "core/geometry/branches.h"
@@ -9,12 +10,14 @@
 #include "core/gltf/glb.h"
 #include "core/grow/collision.h"
 #include "core/grow/growth.h"
+#include "core/grow/impostor.h"
 #include "core/grow/level_choice.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
 #include "core/grow/variants.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
+#include "core/params/messages.h"
 #include "core/params/reader.h"
 
 namespace sporeprint {
@@ -31,7 +34,18 @@ Mesh ordered_mesh(const MushroomSpec& spec, const Individual& individual, Detail
     return mesh;
 }
 
-/// Returns the mesh of each level of detail of a file.
+// Throws Impossible for options that exclude each other, also those of mushrooms alone.
+void refuse_impossible(const MushroomParams& params) {
+    refuse_impossible(params.file, params.textures);
+    refuse_impossible_variants(params.variants, params.textures, params.file);
+    refuse_impossible_impostor(params.lod, params.file, params.textures, params.variants);
+    if (has_impostor(params.lod, params.file) && params.animation != Animation::none)
+        throw Impossible("/animation",
+                         in_quotes(name(params.animation)) +
+                             " is impossible for an impostor, which shows one age; ask for none");
+}
+
+/// Returns the mesh of each level of detail of a file; none for an impostor alone.
 std::vector<Mesh> level_meshes(const MushroomSpec& spec, const Individual& individual,
                                const ExecutionContext& execution) {
     std::vector<Mesh> meshes;
@@ -74,21 +88,23 @@ Estimate estimate(const MushroomSpec& spec, const Atlas& atlas, const Caches& ca
 Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const MushroomParams& params = spec.params;
     const bool grows = params.animation != Animation::none;
-    refuse_impossible(params.file, params.textures);
-    refuse_impossible_variants(params.variants, params.textures, params.file);
+    refuse_impossible(params);
     Estimate e;
     const std::vector<DetailLevel> levels = levels_in_file(spec, individual);
     for (const DetailLevel level : levels) {
         const MeshCount mesh = body_count(individual, level, grows);
         add_level(e, mesh.vertices, mesh.triangles, params.textures, params.file);
     }
-    const auto side = static_cast<std::uint64_t>(params.texture_size) >> levels.front().nearest();
-    const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
+    const bool has_skin = textured(spec) && !levels.empty();
+    const auto side = static_cast<std::uint64_t>(params.texture_size) >>
+                      (levels.empty() ? 0 : levels.front().nearest());
+    const std::uint64_t images = has_skin ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
     add_image_bytes(e, static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3,
                     params.textures, params.file);
     add_solid_bytes(e, 1, 0, params.file);
+    if (has_impostor(params.lod, params.file)) add_impostor(e, params.texture_size, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
         const std::uint64_t moved = params.targets == Targets::position ? 12 : 24;
@@ -144,6 +160,8 @@ std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individ
         levels.push_back({level, count.vertices, count.triangles, 0.0});
         errors.push_back(outline_error(individual, level, radius));
     }
+    if (has_impostor(spec.params.lod, spec.params.file))
+        add_impostor_level(levels, errors, box, spec.params.texture_size);
     set_coverages(levels, box, errors);
     return levels;
 }
@@ -159,21 +177,29 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                        const Extras& extras, const ExecutionContext& execution) {
     execution.observer(Step::build);
     const MushroomParams& params = spec.params;
-    refuse_impossible(params.file, params.textures);
-    refuse_impossible_variants(params.variants, params.textures, params.file);
+    refuse_impossible(params);
     std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
+    std::optional<Impostor> impostor;
+    if (has_impostor(params.lod, params.file))
+        impostor = impostor_of(
+            [&](const Extras& drawing) {
+                (void)grow_mushroom(impostor_source(spec), individual, atlas, drawing, execution);
+            },
+            frame_side_of(params.texture_size), params.file, execution);
     Wind wind{params.file.wind};
     if (wind.format != WindFormat::none) {
         const SwayingStem stem = swaying_stem(individual);
         wind.sway = displacement_of_top(stem);
         for (Mesh& mesh : meshes) mesh.sway = sway_of(mesh, stem);
+        if (impostor) add_sway(*impostor, wind);
     }
     Collision collision;
     if (params.file.collision != CollisionFormat::none)
         collision = body_of(collision_shapes(individual));
     throw_if_cancelled(execution);
-    const Mesh& first = meshes.front();
-    const Bounds box = bounds(first);
+    const bool has_skin = !meshes.empty();
+    const Mesh& first = has_skin ? meshes.front() : impostor->cards;
+    const Bounds box = has_skin ? bounds(first) : impostor->box;
     const MushroomSpec images_of = image_spec(spec, individual);
     std::vector<Level> levels = params.file.lods != Lods::single
                                     ? levels_of(spec, individual, box)
@@ -181,31 +207,40 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     for (std::size_t i = 0; i < levels.size(); ++i) levels[i].name = level_name(spec, i);
     GlbScene scene;
     set_options(scene, params.file);
-    scene.materials.push_back({.name = skin_name(images_of), .look = look_of(individual.model)});
+    if (has_skin)
+        scene.materials.push_back(
+            {.name = skin_name(images_of), .look = look_of(individual.model)});
     scene.stands_on_ground = !grows_from_wall(individual.model);
     GrowthClip growth;
     if (params.animation == Animation::growth) {
         growth = growth_clip(spec, atlas, first, execution);
         scene.clip = &growth.clip;
     }
-    const EmbeddedImages images =
-        attach_images(scene.materials.front(), params.textures, params.file, extras.image_urls,
-                      execution, [&](ImageFormat format) {
-                          return painted_images(paint_spec_of(images_of, atlas, execution.caches),
-                                                execution, format);
-                      });
+    EmbeddedImages images;
+    if (has_skin)
+        images = attach_images(scene.materials.front(), params.textures, params.file,
+                               extras.image_urls, execution, [&](ImageFormat format) {
+                                   return painted_images(
+                                       paint_spec_of(images_of, atlas, execution.caches), execution,
+                                       format);
+                               });
     const std::vector<EmbeddedImages> variant_images =
-        add_variants(scene, variants_of(images_of, individual), params.textures, params.file, extras,
-                     execution, [&](const MushroomSpec& painted) {
+        add_variants(scene, variants_of(images_of, individual), params.textures, params.file,
+                     extras, execution, [&](const MushroomSpec& painted) {
                          return paint_spec_of(painted, atlas, execution.caches);
                      });
     execution.observer(Step::pack);
     Mushroom grown;
     std::vector<std::vector<GlbPrimitive>> primitives;
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-        primitives.push_back({{&meshes[i], 0, growth.targets, variant_materials(scene)}});
-        grown.vertices += levels[i].vertices = meshes[i].positions.size();
-        grown.triangles += levels[i].triangles = meshes[i].triangles();
+    for (const Mesh& mesh : meshes)
+        primitives.push_back({{&mesh, 0, growth.targets, variant_materials(scene)}});
+    if (impostor)
+        primitives.push_back(
+            {{&impostor->cards, add_material(scene, *impostor, product_name(spec))}});
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Mesh& mesh = *primitives[i].front().mesh;
+        grown.vertices += levels[i].vertices = mesh.positions.size();
+        grown.triangles += levels[i].triangles = mesh.triangles();
     }
     add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
     scene.extras_json = dump(extras_value(extras, write(individual.effective), box,

@@ -148,13 +148,16 @@ std::string file_name(const std::string& name, int lod, const std::optional<int>
                       const FileOptions& file) {
     std::string out =
         triangles ? level_name(with_triangles(name, *triangles), 0) : level_name(name, lod);
-    FileOptions::fields([&](auto option, const Info&) {
+    FileOptions::fields([&](auto option, const Info& info) {
         using Option = std::remove_cvref_t<decltype(file.*option)>;
         if (file.*option == FileOptions{}.*option) return;
         // Other options have values of the same names.
         if constexpr (std::is_same_v<Option, CollisionFormat>) out += "_collision";
         if constexpr (std::is_same_v<Option, WindFormat>) out += "_wind";
-        (out += '_') += sporeprint::name(static_cast<Option>(file.*option));
+        if constexpr (std::is_same_v<Option, bool>)
+            (out += '_') += info.name;
+        else
+            (out += '_') += sporeprint::name(static_cast<Option>(file.*option));
     });
     return out;
 }

@@ -27,6 +27,7 @@ struct Estimate {
     /// blended.
     std::uint64_t texels = 0;
     std::uint64_t bytes = 0;
+    std::uint64_t impostor_texels = 0;  ///< of the images of an impostor, beside the others
 };
 
 /// Sets how a scene is written.

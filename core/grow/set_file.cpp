@@ -193,6 +193,10 @@ void refuse_in_one_file(const SetSpec& spec) {
         throw Impossible("/variants", std::string("'") + name(mushroom.variants) +
                                           "' is impossible for a set in one file; ask for none, or "
                                           "for an archive");
+    if (mushroom.file.impostor)
+        throw Impossible("/impostor",
+                         "'true' is impossible for a set in one file, whose levels are meshes; ask "
+                         "for false, or for an archive");
     if (spec.params.levels.size() > 1 && mushroom.file.lods == Lods::single)
         throw Impossible("/lods",
                          "several levels in one file lie over each other; ask for lods=msft, for "

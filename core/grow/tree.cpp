@@ -9,6 +9,7 @@
 
 #include "core/gltf/glb.h"
 #include "core/grow/collision.h"
+#include "core/grow/impostor.h"
 #include "core/grow/leaf.h"
 #include "core/grow/names.h"
 #include "core/math/direction.h"
@@ -33,7 +34,8 @@ std::uint64_t image_bytes(std::uint64_t texels) { return texels / 5 + 3000; }
 std::uint64_t texels_of(const TreeParams& params) {
     const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     const std::uint64_t kinds = params.look.leaves.per_tip > 0 ? 2 : 1;
-    return params.textures == Textures::none ? 0 : kinds * 3 * side * side;
+    const bool has_images = params.textures != Textures::none && params.lod != impostor_lod;
+    return has_images ? kinds * 3 * side * side : 0;
 }
 
 void finish(Mesh& mesh, const TreeParams& params) {
@@ -81,6 +83,7 @@ void add_leaves(TreeMeshes& meshes, const Tree& tree, const TreeParams& params,
 // Throws Impossible for options that exclude each other, also those of trees alone.
 void refuse_impossible(const TreeParams& params) {
     refuse_impossible(params.file, params.textures);
+    refuse_impossible_impostor(params.lod, params.file, params.textures);
     if (params.instancing == LeafInstancing::gpu && params.file.wind != WindFormat::none)
         throw Impossible("/instancing",
                          "'gpu' repeats one leaf without the weights of wind, which differ from "
@@ -89,7 +92,8 @@ void refuse_impossible(const TreeParams& params) {
 
 void add_images(Estimate& e, const TreeParams& params) {
     e.texels = texels_of(params);
-    add_image_bytes(e, image_bytes(e.texels), params.textures, params.file);
+    if (e.texels > 0) add_image_bytes(e, image_bytes(e.texels), params.textures, params.file);
+    if (has_impostor(params.lod, params.file)) add_impostor(e, params.texture_size, params.file);
 }
 
 /// The counts of a tree at a level of detail.
@@ -146,6 +150,19 @@ void add_instanced(GlbScene& scene, const TreeMeshes& meshes, const std::string&
     scene.nodes.push_back(
         {.name = name + "_leaves", .mesh = scene.meshes.size(), .instances = meshes.places});
     scene.meshes.push_back({name + "_leaf", {{&meshes.leaves, 1, {}}}});
+}
+
+/// Adds the mesh and the node of an impostor.
+void add_cards(GlbScene& scene, const std::vector<GlbPrimitive>& cards, const std::string& name) {
+    scene.nodes.push_back({.name = name + "_cards", .mesh = scene.meshes.size()});
+    scene.meshes.push_back({name + "_cards", cards});
+}
+
+/// Returns the wind of a tree of which no mesh is built.
+Wind wind_of(const TreeSpec& spec, const Atlas& atlas) {
+    TreeSpec bare = spec;
+    bare.params.lod = last_lod;
+    return spec.params.file.wind == WindFormat::none ? Wind{} : tree_meshes(bare, atlas).wind;
 }
 
 /// Returns about how far the outline of a crown is from the true one: by how much a leaf in place of
@@ -234,6 +251,8 @@ std::vector<Level> levels_of(const TreeSpec& spec, const Atlas& atlas, const Bou
         levels.push_back({lod, count.vertices, count.triangles, 0.0});
         errors.push_back(crown_error(params, atlas, lod, leaves));
     }
+    if (has_impostor(params.lod, params.file))
+        add_impostor_level(levels, errors, box, params.texture_size);
     set_coverages(levels, box, errors);
     return levels;
 }
@@ -249,6 +268,8 @@ LeafParams leaf_of(const TreeParams& params, const Atlas& atlas) {
 TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas) {
     TreeSpec alone = spec;
     alone.params.file.lods = Lods::single;
+    alone.params.file.impostor = false;
+    if (alone.params.lod == impostor_lod) alone.params.lod = impostor_source_lod;
     return std::move(level_meshes(alone, atlas).front());
 }
 
@@ -320,15 +341,28 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     execution.observer(Step::build);
     const std::vector<TreeMeshes> meshes = level_meshes(spec, atlas);
     throw_if_cancelled(execution);
-    const TreeMeshes& first = meshes.front();
-    const bool leafy = !first.leaves.positions.empty();
+    std::optional<Impostor> impostor;
+    if (has_impostor(params.lod, params.file))
+        impostor = impostor_of(
+            [&](const Extras& drawing) {
+                (void)grow_tree(impostor_source(spec), atlas, drawing, {}, execution);
+            },
+            frame_side_of(params.texture_size), params.file, execution);
+    const bool has_meshes = !meshes.empty();
+    const bool leafy = has_meshes && !meshes.front().leaves.positions.empty();
+    const Wind wind = has_meshes ? meshes.front().wind : wind_of(spec, atlas);
+    if (impostor && wind.format != WindFormat::none) add_sway(*impostor, wind);
     GlbScene scene;
     set_options(scene, params.file);
-    scene.materials.push_back(
-        {.name = bark_name(spec.preset, paint_of(params), params.textures), .repeats_u = true});
-    const EmbeddedImages bark_images = attach_images(
-        scene.materials[0], params.textures, params.file, extras.image_urls, execution,
-        [&](ImageFormat format) { return painted_images(paint_of(params), execution, format); });
+    EmbeddedImages bark_images;
+    if (has_meshes) {
+        scene.materials.push_back(
+            {.name = bark_name(spec.preset, paint_of(params), params.textures), .repeats_u = true});
+        bark_images = attach_images(scene.materials[0], params.textures, params.file,
+                                    extras.image_urls, execution, [&](ImageFormat format) {
+                                        return painted_images(paint_of(params), execution, format);
+                                    });
+    }
     EmbeddedImages leaf_images;
     if (leafy) {
         const LeafPaint paint = paint_of(leaf_of(params, atlas));
@@ -339,7 +373,7 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
             [&](ImageFormat format) { return painted_images(paint, execution, format); });
     }
     execution.observer(Step::pack);
-    const Bounds box = bounds(first);
+    const Bounds box = has_meshes ? bounds(meshes.front()) : impostor->box;
     const bool is_chain = params.file.lods != Lods::single;
     std::vector<Level> levels =
         is_chain ? levels_of(spec, atlas, box) : std::vector<Level>{{params.lod}};
@@ -348,10 +382,21 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
         grown.vertices += levels[i].vertices = meshes[i].vertices();
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }
-    if (params.instancing == LeafInstancing::gpu) {
-        add_grouped_levels(
-            scene, product_name(spec, atlas), levels, params.file.lods,
-            [&](std::size_t i, const std::string& name) { add_instanced(scene, meshes[i], name); });
+    std::vector<GlbPrimitive> cards;
+    if (impostor) {
+        cards.push_back(
+            {&impostor->cards, add_material(scene, *impostor, product_name(spec, atlas))});
+        grown.vertices += impostor->cards.positions.size();
+        grown.triangles += impostor->cards.triangles();
+    }
+    if (params.instancing == LeafInstancing::gpu && has_meshes) {
+        add_grouped_levels(scene, product_name(spec, atlas), levels, params.file.lods,
+                           [&](std::size_t i, const std::string& name) {
+                               if (i < meshes.size())
+                                   add_instanced(scene, meshes[i], name);
+                               else
+                                   add_cards(scene, cards, name);
+                           });
     } else {
         std::vector<std::vector<GlbPrimitive>> primitives;
         primitives.reserve(meshes.size());
@@ -359,10 +404,13 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
             primitives.push_back({{&level.bark, 0, {}}});
             if (leafy) primitives.back().push_back({&level.leaves, 1, {}});
         }
+        if (impostor) primitives.push_back(cards);
         add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
     }
-    scene.extras_json = dump(extras_value(extras, write(params), box, first.triangles(),
-                                          {levels, params.file.lods}, first.wind));
+    const std::size_t triangles =
+        has_meshes ? meshes.front().triangles() : impostor->cards.triangles();
+    scene.extras_json =
+        dump(extras_value(extras, write(params), box, triangles, {levels, params.file.lods}, wind));
     Collision collision;
     if (params.file.collision != CollisionFormat::none) collision = trunk_collision(spec);
     add_collision(scene, collision, level_name(product_name(spec, atlas), params.lod),

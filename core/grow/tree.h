@@ -52,12 +52,13 @@ struct TreeMeshes {
 /// throws  InvalidInput (path "/leaf") if the atlas has no such leaf
 [[nodiscard]] LeafParams leaf_of(const TreeParams& params, const Atlas& atlas);
 
-/// Returns the meshes alone, in metres; the base of the trunk is at the origin.
+/// Returns the meshes alone, in metres; the base of the trunk is at the origin. For an impostor they
+/// are those that it shows.
 ///
 /// throws  InvalidInput, also (path "/leaf") if the atlas has no such leaf; Impossible
 [[nodiscard]] TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas);
 
-/// Returns the same for each level of detail of the file, finest first.
+/// Returns the same for each level of detail of the file, finest first; none for an impostor alone.
 [[nodiscard]] std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas);
 
 /// Returns the bounding box of both meshes.

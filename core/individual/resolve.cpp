@@ -303,7 +303,9 @@ void resolve_swept(Individual& individual, const MushroomSpec& spec,
     };
     individual.outline =
         varied_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
-    for (const int lod : levels_in_file(requested.lod, requested.file))
+    std::vector<int> built = levels_in_file(requested.lod, requested.file);
+    if (has_impostor(requested.lod, requested.file)) built.push_back(impostor_source_lod);
+    for (const int lod : built)
         if (const auto curve = self_intersecting_curve(individual.outline, lod))
             throw Impossible(spec.model ? std::string("/model/silhouette/") + name(*curve) : "mix",
                              "the outline crosses itself at level of detail " +

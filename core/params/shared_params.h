@@ -181,9 +181,21 @@ using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
 inline constexpr Info size_info{
     .name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."};
-/// The last level of detail of every product.
+/// The last level of detail of every product that is its mesh.
 inline constexpr int last_lod = 3;
+/// The level after it of all products but leaves: an impostor, cards with pictures of the product.
+inline constexpr int impostor_lod = last_lod + 1;
+/// The level of detail of the meshes that an impostor shows.
+inline constexpr int impostor_source_lod = 1;
 inline constexpr Info lod_info{
+    .name = "lod",
+    .min = 0,
+    .max = impostor_lod,
+    .doc =
+        "Level of detail: the same individual with fewer triangles and smaller images. 4 is an "
+        "impostor: cards with pictures from all sides, for the distance.",
+    .default_from = "profile"};
+inline constexpr Info mesh_lod_info{
     .name = "lod",
     .min = 0,
     .max = last_lod,
@@ -236,6 +248,7 @@ struct FileOptions {
     ImageFormats image_format = ImageFormats::jpg;
     MaterialSet materials = MaterialSet::full;
     Lods lods = Lods::single;
+    bool impostor = false;
     CollisionFormat collision = CollisionFormat::none;
     WindFormat wind = WindFormat::none;
 
@@ -279,6 +292,12 @@ struct FileOptions {
                         "the first.",
                  .group = "file",
                  .default_from = "profile"});
+        visit(&O::impostor,
+              Info{.name = "impostor",
+                   .doc = "Whether the levels of detail of lods=nodes or lods=msft end with an "
+                          "impostor, that of lod=4: cards with pictures from all sides. A leaf has "
+                          "none.",
+                   .group = "file"});
         visit(&O::collision,
               Info{.name = "collision",
                    .doc = "Solids for a physics engine, the same at every level of detail: a "
@@ -300,11 +319,25 @@ struct FileOptions {
                    .group = "file",
                    .default_from = "profile"});
     }
+    /// Refuses an impostor after a single level, beside which it would be shown.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (impostor && lods == Lods::single)
+            report(problems, path + "/impostor",
+                   "an impostor ends several levels; ask for lods=msft or lods=nodes too, or for "
+                   "lod=4 alone");
+    }
     bool operator==(const FileOptions&) const = default;
 };
 
-/// Returns the levels of detail of a file, finest first.
+/// Returns whether a file has an impostor: alone, or after other levels of detail.
+[[nodiscard]] constexpr bool has_impostor(int lod, const FileOptions& file) {
+    return lod == impostor_lod || file.impostor;
+}
+
+/// Returns the levels of detail of a file that are meshes of the product, finest first; none for an
+/// impostor alone.
 [[nodiscard]] inline std::vector<int> levels_in_file(int lod, const FileOptions& file) {
+    if (lod == impostor_lod) return {};
     std::vector<int> levels{lod};
     while (file.lods != Lods::single && levels.back() < last_lod)
         levels.push_back(levels.back() + 1);

@@ -47,7 +47,7 @@ struct LeafParams {
                                .max = 1,
                                .doc = "From summer (0) through full autumn colour (0.5) to what "
                                       "lies on the ground (1)."});
-        visit(&P::lod, lod_info);
+        visit(&P::lod, mesh_lod_info);
         visit(&P::triangles, triangles_info);
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);

@@ -1,5 +1,7 @@
 #include "core/plant/tree_spec.h"
 
+#include <algorithm>
+
 namespace sporeprint {
 
 TreeParams params_of(const TreePreset& preset) {
@@ -16,13 +18,14 @@ void without_unused_rows(TreeParams& params) {
 }
 
 TreePaint paint_of(const TreeParams& params) {
-    return {{params.texture_size >> params.lod}, params.look.bark};
+    // An impostor has no bark of its own.
+    return {{params.texture_size >> std::min(params.lod, last_lod)}, params.look.bark};
 }
 
 LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset) {
     LeafParams leaf = params_of(preset);
     leaf.autumn = params.autumn;
-    leaf.lod = params.lod;
+    leaf.lod = std::min(params.lod, last_lod);
     leaf.texture_size = params.texture_size;
     return leaf;
 }

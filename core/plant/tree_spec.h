@@ -77,9 +77,10 @@ struct TreeParams {
         visit(&P::autumn, info_of<L>("autumn"));
         visit(&P::lod, Info{.name = "lod",
                             .min = 0,
-                            .max = 3,
+                            .max = impostor_lod,
                             .doc = "Level of detail: the same individual with fewer branches and "
-                                   "fewer, larger leaves, and smaller images.",
+                                   "fewer, larger leaves, and smaller images. 4 is an impostor: "
+                                   "cards with pictures from all sides, for the distance.",
                             .default_from = "profile"});
         visit(&P::triangles, triangles_info);
         visit(&P::texture_size, Info{.name = "texture_size",

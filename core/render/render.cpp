@@ -16,6 +16,7 @@
 #include "core/render/draw_list.h"
 #include "core/render/lighting.h"
 #include "core/render/shading.h"
+#include "core/render/srgb_table.h"
 #include "core/render/triangle_raster.h"
 #include "core/surface/codecs.h"
 
@@ -250,17 +251,6 @@ class GroundShadow {
     }
 };
 
-using SrgbTable = std::array<std::uint8_t, 4096>;
-
-/// Returns sRGB of linear values in steps of 1/4095.
-SrgbTable srgb_table() {
-    SrgbTable table{};
-    for (std::size_t i = 0; i < table.size(); ++i)
-        table[i] = static_cast<std::uint8_t>(
-            linear_to_srgb(static_cast<double>(i) / 4095.0) * 255.0 + 0.5);
-    return table;
-}
-
 /// Colour and coverage of a pixel or a sample; the colour is linear and multiplied by the coverage.
 struct Pixel {
     glm::vec3 light{0.0F};
@@ -419,9 +409,7 @@ class Drawing {
             colour = colour * pixel.surface + glm::vec3(behind * std::max(1.0F - alpha, 0.0F));
             alpha = 1.0F;
         }
-        for (int c = 0; c < 3; ++c)
-            to[c] =
-                srgb[static_cast<std::size_t>(std::clamp(colour[c], 0.0F, 1.0F) * 4095.0F + 0.5F)];
+        for (int c = 0; c < 3; ++c) to[c] = srgb.of(colour[c]);
         to[3] = static_cast<std::uint8_t>(std::clamp(alpha, 0.0F, 1.0F) * 255.0F + 0.5F);
     }
 };
@@ -457,7 +445,7 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
     const float height = list.box.max.y - list.box.min.y;
     const bool has_ground =
         scene.stands_on_ground && params.view != View::below && list.box.min.y > -0.4F * height;
-    const render::SrgbTable srgb = render::srgb_table();
+    const render::SrgbTable srgb;
     for (int frame = 0; frame < columns * rows; ++frame)
         render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,
                         parallel)

@@ -122,13 +122,21 @@ Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality
     return Bytes(out, out + size);
 }
 
-Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality) {
+namespace {
+
+/// Imports pixels into a picture of the WebP encoder; returns 0 if that fails.
+using WebPImport = int (*)(WebPPicture*, const std::uint8_t*, int);
+
+Bytes encoded_webp(const std::uint8_t* pixels, int bytes_of_pixel, WebPImport import, int width,
+                   int height, int quality) {
     WebPConfig config;
     WebPPicture picture;
     if (WebPConfigPreset(&config, WEBP_PRESET_DEFAULT, static_cast<float>(quality)) == 0 ||
         WebPPictureInit(&picture) == 0)
         throw GenerationError("no WebP encoder of this version");
     config.method = 2;
+    // Filters read colours beside an outline too.
+    config.exact = 1;
     struct Release {
         WebPPicture& picture;
         WebPMemoryWriter& writer;
@@ -144,10 +152,19 @@ Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality
     picture.height = height;
     picture.writer = WebPMemoryWrite;
     picture.custom_ptr = &writer;
-    if (WebPPictureImportRGB(&picture, rgb.data(), 3 * width) == 0 ||
-        WebPEncode(&config, &picture) == 0)
+    if (import(&picture, pixels, bytes_of_pixel * width) == 0 || WebPEncode(&config, &picture) == 0)
         throw GenerationError("WebP encoder: error " + std::to_string(picture.error_code));
     return {writer.mem, writer.mem + writer.size};
+}
+
+}  // namespace
+
+Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality) {
+    return encoded_webp(rgb.data(), 3, WebPPictureImportRGB, width, height, quality);
+}
+
+Bytes webp_with_alpha(std::span<const std::uint8_t> rgba, int width, int height, int quality) {
+    return encoded_webp(rgba.data(), 4, WebPPictureImportRGBA, width, height, quality);
 }
 
 Bytes png(std::span<const std::uint8_t> rgba, int width, int height) {

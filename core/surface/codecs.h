@@ -39,6 +39,13 @@ enum class Chroma { halved, full };
 /// throws   GenerationError if the encoder fails
 [[nodiscard]] Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality);
 
+/// Does the same for an image with alpha, which is stored without loss; colours of texels without
+/// alpha stay as they are.
+///
+/// rgba  4 * width * height bytes; colours are not multiplied by alpha
+[[nodiscard]] Bytes webp_with_alpha(std::span<const std::uint8_t> rgba, int width, int height,
+                                    int quality);
+
 /// Encodes an image as a PNG file.
 ///
 /// rgba    4 * width * height bytes; colours are not multiplied by alpha

@@ -525,6 +525,40 @@ void add_pictures(Requests& requests, const std::shared_ptr<const Atlas>& atlas)
     };
 }
 
+/// Adds impostors of each product, alone in either format, and at the end of other levels.
+void add_impostors(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    for (const ImageFormats format : {ImageFormats::jpg, ImageFormats::webp}) {
+        const std::string called = std::string("impostor/") + name(format) + '/';
+        const auto set = [&](auto params, int lod) {
+            params.lod = lod;
+            params.texture_size.value = small_side;
+            params.file.image_format = format;
+            params.file.impostor = lod != impostor_lod;
+            params.file.lods = lod != impostor_lod ? Lods::msft : Lods::single;
+            return params;
+        };
+        for (const int lod : {2, impostor_lod}) {
+            for (const char* id :
+                 {"amanita_muscaria", "cantharellus_cibarius", "ramaria_formosa"}) {
+                MushroomSpec spec = order_of({{id, 1000}}, 0.6, lod);
+                spec.params = set(spec.params, lod);
+                add_mushroom(requests, atlas, called + id, spec);
+            }
+            ColonySpec colony;
+            colony.mix = {{"hypholoma_fasciculare", 1000}};
+            colony.params = set(colony.params, lod);
+            requests[line_of(called + "colony", 1, lod, small_side)] = [=] {
+                return grow_colony(colony, *atlas).glb;
+            };
+            TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+            tree.params = set(tree.params, lod);
+            requests[line_of(called + "tree", 1, lod, small_side)] = [=] {
+                return grow_tree(tree, *atlas).glb;
+            };
+        }
+    }
+}
+
 Requests golden_requests() {
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();
     Requests requests;
@@ -546,6 +580,7 @@ Requests golden_requests() {
     add_sets(requests, atlas);
     add_variants(requests, atlas);
     add_pictures(requests, atlas);
+    add_impostors(requests, atlas);
     return requests;
 }
 

@@ -23,6 +23,7 @@ before(async () => {
     const scripts = {
         "/forest.js": await bundled(path.join(kit, "examples/forest.ts")),
         "/compare.js": await bundled(path.join(root, "tests/web_viewer/compare_page.mjs")),
+        "/impostor.js": await bundled(path.join(root, "tests/web_viewer/impostor_page.mjs")),
     };
     pages = createServer(({ url }, response) => {
         const script = scripts[url];
@@ -156,6 +157,36 @@ test("compressed files look like the uncompressed ones", async (t) => {
             assert.ok(covered > 0.02, `${product} covers ${covered} of the picture`);
             assert.ok(mean < 1, `${product} ${options}: mean ΔE ${mean}`);
         }
+});
+
+test("an impostor looks like the mesh at a distance", async (t) => {
+    // The largest share of the outline, and of 255 of a colour; the gaps of a crown are smaller than a
+    // texel, and from above the mean normals of a coral are lit more than its branches.
+    for (const [product, lod, outline, colour] of [
+        ["mushrooms/amanita_muscaria", 2, 0.12, 20],
+        ["mushrooms/boletus_edulis", 2, 0.1, 12],
+        ["mushrooms/cantharellus_cibarius", 2, 0.12, 12],
+        ["mushrooms/ramaria_formosa", 1, 0.2, 35],
+        ["trees/spruce", 1, 0.4, 22],
+    ]) {
+        const page = await browser.newPage();
+        t.after(() => page.close());
+        const log = logEvents(page);
+        const query = new URLSearchParams({ server, product, lod, side: 40 });
+        await page.goto(`${address}impostor?${query}`);
+        await page.waitForFunction(() => window.impostor, null, { timeout: 60_000 });
+        const { error, views } = await page.evaluate(() => window.impostor);
+        assert.equal(error, undefined);
+        for (const { view, shader } of views) {
+            const seen = `${product} from ${view}: ${JSON.stringify(shader)}`;
+            assert.ok(shader.covered > 0.05, seen);
+            assert.ok(shader.outline <= outline, seen);
+            for (const one of shader.bias) assert.ok(Math.abs(one) <= colour, seen);
+        }
+        const worst = Math.max(...views.map(({ shader }) => shader.outline));
+        t.diagnostic(`${product}: outlines differ by ${(100 * worst).toFixed(1)} % at most`);
+        assert.deepEqual(log.console.filter((line) => /^(error|uncaught)/.test(line)), []);
+    }
 });
 
 test("a refusal names the parameter", async (t) => {

@@ -126,6 +126,13 @@ async function requestFactors(server) {
         "animation=growth&frames=2",
         "animation=growth&frames=16&targets=position",
     ];
+    const impostors = [
+        `lod=4&${small}`,
+        `lod=4&${small}&image_format=webp&wind=attribute`,
+        `lod=4&${small}&image_format=webp_jpg&compress=meshopt&collision=nodes`,
+        `lod=3&${small}&lods=nodes&impostor=true`,
+        `lod=2&${small}&lods=msft&impostor=true&profile=web`,
+    ];
     return [
         {
             route: "mushrooms",
@@ -183,6 +190,9 @@ async function requestFactors(server) {
                 levels,
             ],
         },
+        { route: "mushrooms", factors: [[...species, mixes[0]], impostors] },
+        { route: "trees", factors: [trees, impostors] },
+        { route: "colonies", factors: [["armillaria_mellea", "trametes_versicolor"], impostors] },
         { route: "mushrooms", factors: [species] },
         { route: "leaves", factors: [leaves] },
         { route: "trees", factors: [trees] },

@@ -94,6 +94,18 @@ test("a tree moves in wind", async () => {
     assert.equal(found.tree.bodies, 0, "that of the profile is asked for by `collision` alone");
 });
 
+test("an impostor ends the levels, and its shader shows what the mesh shows", () => {
+    const { levels, pictures } = found.impostor;
+    assert.equal(levels.length, 3);
+    assert.match(levels[2].name, /_LOD4$/);
+    assert.equal(levels[2].triangles, 12);
+    const [mesh, quad] = pictures;
+    assert.ok(mesh.covered > 500, `${mesh.covered} pixels`);
+    assert.ok(Math.abs(quad.covered / mesh.covered - 1) < 0.1, `${quad.covered} ${mesh.covered}`);
+    for (let k = 0; k < 3; ++k)
+        assert.ok(Math.abs(quad.mean[k] - mesh.mean[k]) < 0.08, `${quad.mean} ${mesh.mean}`);
+});
+
 test("a colony is one draw call for each mesh", async () => {
     const json = await described(
         "colonies/hypholoma_fasciculare.json?lod=1&count=12&distinct=3&seed=2",

@@ -36,6 +36,40 @@ func shown_model(model: SporeprintModel) -> Dictionary:
 						else material.get_shader_parameter("base_color").get_width()})
 	return found
 
+## Returns the size and the mean colour of what a mesh covers, seen from between two frames.
+func picture_of(mesh: Mesh) -> Dictionary:
+	var view := SubViewport.new()
+	view.size = Vector2i(96, 96)
+	view.own_world_3d = true
+	view.transparent_bg = true
+	view.render_target_update_mode = SubViewport.UPDATE_ALWAYS
+	add_child(view)
+	var drawn := MeshInstance3D.new()
+	drawn.mesh = mesh
+	view.add_child(drawn)
+	var sun := DirectionalLight3D.new()
+	view.add_child(sun)
+	sun.look_at_from_position(Vector3(1, 2, 1), Vector3.ZERO)
+	var middle := mesh.get_aabb().get_center()
+	var eye := Camera3D.new()
+	view.add_child(eye)
+	eye.fov = 20.0
+	eye.look_at_from_position(middle + Vector3(0.2, 0.25, 0.5), middle)
+	for i in 3:
+		await RenderingServer.frame_post_draw
+	var picture := view.get_texture().get_image()
+	var covered := 0
+	var sum := Vector3.ZERO
+	for x in 96:
+		for y in 96:
+			var pixel := picture.get_pixel(x, y)
+			if pixel.a > 0.5:
+				covered += 1
+				sum += Vector3(pixel.r, pixel.g, pixel.b)
+	view.queue_free()
+	var mean := sum / maxi(covered, 1)
+	return {"covered": covered, "mean": [mean.x, mean.y, mean.z]}
+
 func _ready() -> void:
 	server.address = JavaScriptBridge.eval("location.origin")
 	server.fetched.connect(func(_path, status): statuses.append(status))
@@ -66,6 +100,15 @@ func _ready() -> void:
 	var parts: Array = await colony.loaded
 	report("colony", {"parts": parts.map(func(part): return {"name": part.name,
 			"count": part.multimesh.instance_count, "triangles": triangles(part.multimesh.mesh)})})
+
+	var distant := SporeprintModel.new()
+	distant.parameters = {"texture_size": 1024, "seed": 3, "lod": 2, "impostor": "true"}
+	var impostor := await shown_model(distant)
+	impostor["pictures"] = []
+	for mesh in [distant.find_child("*_LOD2", true, false).mesh, distant.as_impostor()]:
+		impostor.pictures.append(await picture_of(mesh))
+	distant.queue_free()
+	report("impostor", impostor)
 
 	var described := await server.description(
 			"/v1/mushrooms/boletus_edulis.json?lod=3&texture_size=128")

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <webp/decode.h>
 #include <webp/encode.h>
 
 #include <cstdlib>
@@ -168,6 +169,28 @@ TEST(Codecs, WebpRefusesWhatItCannotHold) {
     const Bytes row(3 * 20000);
     EXPECT_THROW((void)webp(row, 20000, 1, 80), GenerationError) << "at most 16383 texels wide";
     EXPECT_THROW((void)webp(row, 100, 1, 101), GenerationError);
+}
+
+TEST(Codecs, WebPWithAlphaKeepsItExactlyAndColoursWhereThereIsNone) {
+    constexpr int side = 48;
+    const Bytes rgb = slope(side, side);
+    Bytes rgba;
+    for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+        rgba.insert(rgba.end(), rgb.begin() + static_cast<long>(3 * i),
+                    rgb.begin() + static_cast<long>(3 * i + 3));
+        rgba.push_back(i % side < side / 2 ? 0 : static_cast<std::uint8_t>(i % 256));
+    }
+    const Bytes file = webp_with_alpha(rgba, side, side, 80);
+    Bytes found(rgba.size());
+    ASSERT_NE(WebPDecodeRGBAInto(file.data(), file.size(), found.data(), found.size(), 4 * side),
+              nullptr);
+    int worst = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        ASSERT_EQ(found[i + 3], rgba[i + 3]);
+        for (std::size_t c = 0; c < 3; ++c)
+            worst = std::max(worst, std::abs(found[i + c] - rgba[i + c]));
+    }
+    EXPECT_LT(worst, 24) << "black in place of a colour would be a dark fringe";
 }
 
 }  // namespace

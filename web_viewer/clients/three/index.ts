@@ -1,4 +1,4 @@
-// Sporeprint for three.js: loading, levels of detail, batching, variants and wind.
+// Sporeprint for three.js: loading, levels of detail, impostors, batching, variants and wind.
 export {
     Field,
     prototypesOf,
@@ -7,6 +7,7 @@ export {
     type Prototype,
     type PrototypeLevel,
 } from "./field";
+export { Impostor, impostorExtrasOf, type ImpostorExtras } from "./impostor";
 export { RequestRefused, Sporeprint, type SetOrder } from "./server";
 export { MaterialVariants } from "./variants";
 export { Wind, windOf, type WindExtras } from "./wind";

@@ -26,6 +26,7 @@ extends Node3D
 signal loaded(levels: Array[GeometryInstance3D])
 
 const WIND := preload("sporeprint_wind.gdshader")
+const IMPOSTOR := preload("sporeprint_impostor.gdshader")
 
 var _shown: Node3D
 var _turn := 0
@@ -55,6 +56,10 @@ func load_model() -> Array[GeometryInstance3D]:
 		_shown = scene
 		add_child(scene)
 		found = _levels_of(scene)
+		if scene.has_meta("sporeprint_impostor"):
+			# Red is depth; the file says so by an occlusion of strength 0, which Godot does not read.
+			var cards := found[-1].mesh.surface_get_material(0) as BaseMaterial3D
+			cards.ao_enabled = false
 		_switch(found, scene.get_meta("sporeprint"))
 		if moves:
 			_sway(found, scene.get_meta("sporeprint"))
@@ -72,6 +77,34 @@ func path() -> String:
 		query["lod"] = lod
 	query.merge(parameters, true)
 	return "/v1/%s.glb?%s" % [product, HTTPClient.new().query_string_from_dict(query)]
+
+## Returns a mesh that faces the camera and shows the impostor of the model, for a MeshInstance3D at its
+## place or a MultiMesh of many; null if the file has none. Parameters: {"impostor": "true"}.
+func as_impostor() -> Mesh:
+	if not is_instance_valid(_shown) or not _shown.has_meta("sporeprint_impostor"):
+		return null
+	var stated: Dictionary = _shown.get_meta("sporeprint_impostor")
+	var cards: Mesh = _levels_of(_shown)[-1].mesh
+	var plain := cards.surface_get_material(0) as BaseMaterial3D
+	var centre := Vector3(stated["centre_m"][0], stated["centre_m"][1], stated["centre_m"][2])
+	var radius: float = stated["radius_m"]
+	var material := ShaderMaterial.new()
+	material.shader = IMPOSTOR
+	material.resource_name = plain.resource_name
+	material.set_shader_parameter("base_color", plain.albedo_texture)
+	material.set_shader_parameter("normal_map", plain.normal_texture)
+	material.set_shader_parameter("surface_map", plain.roughness_texture)
+	for name in ["grid", "frame_texels", "side_texels", "cutoff"]:
+		material.set_shader_parameter(name, stated[name])
+	material.set_shader_parameter("centre", centre)
+	material.set_shader_parameter("radius", radius)
+	if plain.emission_enabled:
+		material.set_shader_parameter("glow", plain.emission * plain.emission_energy_multiplier)
+	var quad := QuadMesh.new()
+	quad.size = Vector2(2.0, 2.0)
+	quad.material = material
+	quad.custom_aabb = AABB(centre - Vector3.ONE * radius, 2.0 * Vector3.ONE * radius)
+	return quad
 
 func _levels_of(scene: Node) -> Array[GeometryInstance3D]:
 	var found: Array[GeometryInstance3D] = []
@@ -113,7 +146,8 @@ func _sway(levels: Array[GeometryInstance3D], extras: Dictionary) -> void:
 		var mesh: Mesh = level.mesh
 		for surface in mesh.get_surface_count():
 			var plain := mesh.surface_get_material(surface) as BaseMaterial3D
-			if plain == null:
+			# The cards of an impostor stand still: the shader of wind has no alpha.
+			if plain == null or plain.transparency != BaseMaterial3D.TRANSPARENCY_DISABLED:
 				continue
 			var moved := ShaderMaterial.new()
 			moved.shader = WIND

@@ -88,6 +88,11 @@ func parse(body: PackedByteArray, path: String) -> Node3D:
 		return null
 	var node: Node3D = document.generate_scene(state)
 	node.set_meta("sporeprint", state.json["asset"].get("extras", {}))
+	for material in state.json.get("materials", []):
+		if material.get("extras", {}).has("impostor"):
+			var impostor: Dictionary = material["extras"]["impostor"]
+			impostor["cutoff"] = material["alphaCutoff"]
+			node.set_meta("sporeprint_impostor", impostor)
 	return node
 
 ## Returns a JSON document of the server; an empty dictionary after an error.

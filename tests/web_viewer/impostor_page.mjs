@@ -1,0 +1,144 @@
+// Draws a product as a mesh, as the cards of its impostor and by the shader of the client kit, and
+// sets window.impostor to how far both are from the mesh. Bundled and run by clients.test.mjs.
+//
+//   ?server=...&product=mushrooms/x&side=40[&options=seed=3]
+import {
+    AmbientLight,
+    Box3,
+    Color,
+    DirectionalLight,
+    PerspectiveCamera,
+    Scene,
+    Sphere,
+    Vector3,
+    WebGLRenderer,
+} from "three";
+import { Impostor, Sporeprint } from "../../web_viewer/clients/three/index.ts";
+
+/** Azimuths and elevations of the camera, degrees: on frames, between them and low. */
+const views = [
+    [0, 0],
+    [20, 12],
+    [57, 25],
+    [101, 40],
+    [160, 8],
+    [215, 30],
+    [290, 60],
+    [33, 82],
+];
+
+const query = new URLSearchParams(location.search);
+const side = Number(query.get("side") ?? 40);
+/** Samples of a pixel in each direction. */
+const samples = 4;
+
+function sceneOf(model) {
+    const scene = new Scene();
+    const sun = new DirectionalLight(0xffffff, 2);
+    sun.position.set(-1, 2, 1.5);
+    scene.add(model, sun, new AmbientLight(0xffffff, 1));
+    return scene;
+}
+
+/** Returns a camera that sees a ball, as large as the picture allows. */
+function cameraOf(ball, [azimuth, elevation]) {
+    // On a screen 1,080 pixels high, something of 40 pixels is seen at about two degrees.
+    const angle = 3;
+    const camera = new PerspectiveCamera(angle, 1, ball.radius, ball.radius * 100);
+    const [a, e] = [azimuth, elevation].map((degrees) => (degrees * Math.PI) / 180);
+    const distance = (1.04 * ball.radius) / Math.sin((0.5 * angle * Math.PI) / 180);
+    const toward = new Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
+    camera.position.copy(ball.center).addScaledVector(toward, distance);
+    camera.lookAt(ball.center);
+    return camera;
+}
+
+/** Returns the pixels of a scene as red, green, blue (multiplied by coverage) and coverage, 0 to 255. */
+function pixelsOf(renderer, scene, camera) {
+    renderer.render(scene, camera);
+    const gl = renderer.getContext();
+    const wide = side * samples;
+    const fine = new Uint8Array(4 * wide * wide);
+    gl.readPixels(0, 0, wide, wide, gl.RGBA, gl.UNSIGNED_BYTE, fine);
+    const pixels = new Float64Array(4 * side * side);
+    for (let y = 0; y < wide; ++y)
+        for (let x = 0; x < wide; ++x)
+            for (let k = 0; k < 4; ++k)
+                pixels[4 * (Math.floor(y / samples) * side + Math.floor(x / samples)) + k] +=
+                    fine[4 * (y * wide + x) + k] / samples ** 2;
+    return pixels;
+}
+
+/** Returns the area that only one of two pictures covers, in areas of the first, and the mean
+ *  difference of colours, 0 to 255, of pixels that both cover. */
+function compared(first, second) {
+    let covered = 0;
+    let other = 0;
+    let both = 0;
+    let sum = 0;
+    const means = [0, 0, 0, 0];
+    for (let at = 0; at < first.length; at += 4) {
+        const [a, b] = [first[at + 3] / 255, second[at + 3] / 255];
+        covered += a;
+        other += Math.abs(a - b);
+        if (a < 0.99 || b < 0.99) continue;
+        ++both;
+        for (let k = 0; k < 3; ++k) {
+            sum += Math.abs(first[at + k] - second[at + k]) / 3;
+            means[k] += second[at + k] - first[at + k];
+        }
+    }
+    return {
+        outline: other / covered,
+        colour: sum / both,
+        bias: means.slice(0, 3).map((one) => one / both),
+        covered: covered / (side * side),
+    };
+}
+
+async function run() {
+    const sporeprint = new Sporeprint(query.get("server"));
+    const [kind, name] = query.get("product").split("/");
+    const options = query.get("options") ? `&${query.get("options")}` : "";
+    const load = (lod) =>
+        sporeprint.load(`${kind}/${name}.glb?lod=${lod}&image_format=webp${options}`);
+    const [near, far] = [await load(query.get("lod") ?? 2), await load(4)];
+    const canvas = document.querySelector("canvas");
+    const renderer = new WebGLRenderer({
+        canvas,
+        alpha: true,
+        antialias: false,
+        preserveDrawingBuffer: true,
+    });
+    renderer.setSize(side * samples, side * samples, false);
+    const ball = new Box3().setFromObject(near.scene, true).getBoundingSphere(new Sphere());
+    const shaded = Impostor.of(far.scene);
+    const scenes = [near.scene, far.scene, shaded.mesh()].map(sceneOf);
+    const sheet = document.createElement("canvas");
+    const shown = Math.max(side, 200);
+    sheet.width = shown * views.length;
+    sheet.height = shown * scenes.length;
+    const context = sheet.getContext("2d");
+    context.imageSmoothingEnabled = false;
+    context.fillStyle = new Color(0x9aa88c).getStyle();
+    context.fillRect(0, 0, sheet.width, sheet.height);
+    const found = views.map((view, column) => {
+        const camera = cameraOf(ball, view);
+        const pixels = scenes.map((scene, row) => {
+            const read = pixelsOf(renderer, scene, camera);
+            context.drawImage(canvas, column * shown, row * shown, shown, shown);
+            return read;
+        });
+        return {
+            view,
+            cards: compared(pixels[0], pixels[1]),
+            shader: compared(pixels[0], pixels[2]),
+        };
+    });
+    return { views: found, picture: sheet.toDataURL("image/png") };
+}
+
+run().then(
+    (result) => (window.impostor = result),
+    (error) => (window.impostor = { error: String(error.stack ?? error) }),
+);
