@@ -289,9 +289,7 @@ Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Reso
     execution.observer(Step::resolve);
     const Individual& individual = resolved_individual(context, spec, execution.caches, resolved);
     execution.observer(Step::build);
-    const bool is_impostor = spec.params.lod == impostor_lod;
-    const Bounds box =
-        bounds(mushroom_mesh(is_impostor ? impostor_source(spec) : spec, individual));
+    const Bounds box = bounds(mushroom_mesh(spec, individual));
     execution.observer(Step::pack);
     Value body = Value::object();
     // The URL of the GLB, which users copy into their applications.

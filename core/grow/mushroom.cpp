@@ -126,7 +126,9 @@ MeshCount body_count(const Individual& individual, DetailLevel level, bool keep_
 }
 
 Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
-    return ordered_mesh(spec, individual, first_level(spec, individual));
+    return ordered_mesh(spec, individual,
+                        spec.params.lod == impostor_lod ? DetailLevel(impostor_source_lod)
+                                                        : first_level(spec, individual));
 }
 
 double outline_error(const Individual& individual, DetailLevel level, double radius) {

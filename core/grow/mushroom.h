@@ -30,7 +30,8 @@ namespace sporeprint {
 [[nodiscard]] MeshCount body_count(const Individual& individual, DetailLevel level,
                                    bool keep_absent = true);
 
-/// Returns the mesh of the first level of detail of a file alone.
+/// Returns the mesh of the first level of detail of a file alone; for an impostor that which it
+/// shows.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual);
 
 /// Returns about the largest distance of the outline of a mesh at a level of detail from the true

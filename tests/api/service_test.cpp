@@ -61,7 +61,7 @@ TEST_F(ServiceTest, ErrorsOfAUrlAreNamed) {
         {"seed=-1", 400, "seed", "outside"},
         {"seed=4294967296", 400, "seed", "outside"},
         {"seed=1.5", 400, "seed", "whole number"},
-        {"lod=4", 400, "lod", "4 is outside 0..3"},
+        {"lod=5", 400, "lod", "5 is outside 0..4"},
         {"texture_size=300", 400, "texture_size", "128, 256"},
         {"animation=dance", 400, "animation", "none, growth"},
         {"frames=5", 422, "frames", "animation=growth"},

@@ -162,6 +162,7 @@ inline MushroomParams arbitrary_params() {
         params.file.lods = Lods::single;
     }
     if (params.triangles) params.lod = lod_of(params.file.profile);
+    if (params.file.lods == Lods::single) params.file.impostor = false;
     auto& deformation = params.deformation;
     if (deformation.zone_from && deformation.zone_to &&
         *deformation.zone_to < *deformation.zone_from + 0.1)
