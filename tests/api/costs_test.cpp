@@ -118,6 +118,8 @@ void add_mushrooms(Cases& cases, const std::vector<std::string>& swept) {
             add_get(cases, levelled(glb, lod, "&texture_size=256"));
         }
         add_get(cases, levelled(glb, 0, "&texture_size=1024"));
+        add_get(cases, levelled(glb, 4, "&texture_size=256"));
+        add_get(cases, levelled(glb, 4, "&image_format=webp"));
         add_get(cases, levelled(glb, 1, "&textures=linked"));
         add_get(cases, levelled(glb, 0, "&textures=none&animation=growth&frames=2"));
         add_get(cases, levelled(glb, 3, "&textures=none&animation=growth&frames=16"));
@@ -128,6 +130,8 @@ void add_mushrooms(Cases& cases, const std::vector<std::string>& swept) {
         for (const char* end : {".glb?collision=omi&lod=3&textures=none", ".json?collision=nodes"})
             add_get(cases, std::string("/v1/mushrooms/") + id + end);
     add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?collision=omi&lod=2&textures=none");
+    add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?lod=4&image_format=webp");
+    add_get(cases, "/v1/mushrooms/boletus_edulis.glb?lod=2&lods=msft&impostor=true&profile=web");
     add_get(cases, "/v1/trees/birch.glb?collision=nodes&lod=3&textures=none");
     add_get(cases, "/v1/mushrooms/amanita_muscaria.glb?wind=attribute&textures=none");
     add_get(cases, "/v1/mushrooms/amanita_muscaria.glb?variants=weather&texture_size=256");
@@ -271,6 +275,7 @@ void add_plants(Cases& cases) {
     }
     for (const TreePreset& preset : tree_presets()) {
         const std::string of = "/v1/trees/" + preset.id.string();
+        add_get(cases, of + ".glb?lod=4&image_format=webp");
         for (int lod = 0; lod < 4; ++lod)
             add_get(cases, levelled(of + ".glb", lod, "&textures=none"));
         add_get(cases, levelled(of + ".glb", 3, "&texture_size=1024"));
