@@ -26,6 +26,9 @@ constexpr std::array<TubeDetail, 10> detail_steps = {
      {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
      {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6},
      {3, 3, 3, 3, 1, 1, 2, 1.0, 0.6}}};
+/// Index of the resolution in which species of few segments are finer than in the one before: it
+/// serves sets that exceed the limit, and no level begins with it.
+constexpr std::size_t step_for_mixes = 2;
 /// Index of the finest and of the coarsest resolution by level of detail; if the coarsest exceeds
 /// the limit, the smallest tubes are dropped.
 constexpr std::array<std::size_t, 5> first_step = {0, 3, 7, 8, 9};
@@ -54,8 +57,9 @@ Resolutions resolutions_at(DetailLevel level) {
         const auto from = static_cast<double>(table[row]), to = static_cast<double>(table[row + 1]);
         return from + further * (to - from);
     };
-    return {static_cast<std::size_t>(std::ceil(mean(first_step))),
-            static_cast<std::size_t>(std::ceil(mean(last_step))), mean(sufficient_share)};
+    auto first = static_cast<std::size_t>(std::ceil(mean(first_step)));
+    if (first == step_for_mixes) ++first;
+    return {first, static_cast<std::size_t>(std::ceil(mean(last_step))), mean(sufficient_share)};
 }
 
 std::vector<TubeChain> chains_of(const BranchGraph& graph) {

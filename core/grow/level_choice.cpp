@@ -88,7 +88,7 @@ DetailLevel first_level(const MushroomSpec& spec, const Individual& individual) 
             const DetailLevel level(lod, eighths);
             if (!level.is_whole() && (grows(spec) || lod == last_whole)) break;
             const double off = ratio(triangles_at(individual, level, grows(spec)), wanted);
-            if ((level > 0 && off >= least) || !is_possible(individual, level)) continue;
+            if ((level > 0 && off > least) || !is_possible(individual, level)) continue;
             nearest = level;
             least = off;
         }

@@ -15,7 +15,7 @@ namespace sporeprint {
 inline constexpr double largest_step = 4.2, least_step = 1.8;
 
 /// Returns the level of detail with which a file begins: `lod` or, with `triangles`, the level whose
-/// count is nearest to it in ratio. Levels between whole ones are left out if the outline crosses
+/// count is nearest to it in ratio, of equally near ones the coarsest. Levels between whole ones are left out if the outline crosses
 /// itself at them, and in clips, whose outlines are proven at whole levels alone.
 ///
 /// cost  that of at most 25 body_count()

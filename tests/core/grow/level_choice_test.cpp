@@ -186,7 +186,7 @@ TEST(LevelChoice, HasTheImagesOfTheNearestWholeLevel) {
     EXPECT_EQ(e.vertices, body_count(individual, level).vertices);
     const ReadScene found = expect_scene(joined(grow_mushroom(spec, atlas()).glb));
     EXPECT_EQ(found.meshes[0][0].mesh.positions.size(), e.vertices);
-    EXPECT_EQ(found.nodes[0].name, "amanita_muscaria_s1_a60_t12000_LOD0");
+    EXPECT_TRUE(found.nodes[0].name.ends_with("_t12000_LOD0")) << found.nodes[0].name;
 }
 
 TEST(LevelChoice, AChainForTrianglesBeginsThereAndGoesOnWithSteps) {
