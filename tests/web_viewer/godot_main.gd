@@ -37,7 +37,7 @@ func shown_model(model: SporeprintModel) -> Dictionary:
 	return found
 
 ## Returns the size and the mean colour of what a mesh covers, seen from between two frames.
-func picture_of(mesh: Mesh) -> Dictionary:
+func picture_of(mesh: Mesh, middle: Vector3) -> Dictionary:
 	var view := SubViewport.new()
 	view.size = Vector2i(96, 96)
 	view.own_world_3d = true
@@ -50,7 +50,6 @@ func picture_of(mesh: Mesh) -> Dictionary:
 	var sun := DirectionalLight3D.new()
 	view.add_child(sun)
 	sun.look_at_from_position(Vector3(1, 2, 1), Vector3.ZERO)
-	var middle := mesh.get_aabb().get_center()
 	var eye := Camera3D.new()
 	view.add_child(eye)
 	eye.fov = 20.0
@@ -105,8 +104,9 @@ func _ready() -> void:
 	distant.parameters = {"texture_size": 1024, "seed": 3, "lod": 2, "impostor": "true"}
 	var impostor := await shown_model(distant)
 	impostor["pictures"] = []
-	for mesh in [distant.find_child("*_LOD2", true, false).mesh, distant.as_impostor()]:
-		impostor.pictures.append(await picture_of(mesh))
+	var mesh: Mesh = distant.find_child("*_LOD2", true, false).mesh
+	for shown in [mesh, distant.as_impostor()]:
+		impostor.pictures.append(await picture_of(shown, mesh.get_aabb().get_center()))
 	distant.queue_free()
 	report("impostor", impostor)
 
