@@ -101,7 +101,7 @@ std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents,
                                             VertexOrder order) {
     std::vector<Quantized8> out;
     write_octahedral(
-        tangents.size(), order, 8, [&](std::size_t i) { return tangents[i]; }, out);
+        tangents.size(), order, 7, [&](std::size_t i) { return tangents[i]; }, out);
     return out;
 }
 

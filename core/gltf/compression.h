@@ -21,9 +21,9 @@ using Quantized8 = std::array<std::int8_t, 4>;
 /// Returns the largest absolute coordinate of vectors, but at least `at_least`.
 [[nodiscard]] float largest_coordinate(std::span<const glm::vec3> values, float at_least = 0.0F);
 
-/// The largest quantised coordinate. Two bits less than 16 are an eighth of the bytes of compressed
-/// positions, and their error is still 1 / 32766 of the largest coordinate.
-inline constexpr int most_quantized = 16383;
+/// The largest quantised coordinate. Three bits less than 16 are a fifth of the bytes of compressed
+/// positions, and their error is still 2^-14 of the largest coordinate.
+inline constexpr int most_quantized = 8192;
 
 /// The vertices of a file in their order, as indices of those of a mesh; empty for all as they are.
 using VertexOrder = std::span<const std::uint32_t>;
@@ -54,8 +54,8 @@ using VertexOrder = std::span<const std::uint32_t>;
                                                           VertexOrder order = {},
                                                           std::vector<Quantized16> reused = {});
 
-/// Returns tangents for the filter OCTAHEDRAL, with 8 bits for each coordinate: decoding returns
-/// what quantized_tangents() returns, within a degree.
+/// Returns tangents for the filter OCTAHEDRAL, with 7 bits for each coordinate: decoding returns
+/// what quantized_tangents() returns, within two degrees.
 [[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents,
                                                           VertexOrder order = {});
 

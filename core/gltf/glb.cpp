@@ -64,7 +64,7 @@ void check_transform(const glm::dvec4& rotation, const glm::vec3& scale) {
 
 // Bits of the transforms of compressed instances: errors are 2^-15 of the distance from the node,
 // 0.03 degrees, and 2^-10 of the size, which is a fifth of a millimetre at the tip of a long leaf.
-constexpr int bits_of_translations = 15, bits_of_rotations = 12, bits_of_scales = 10;
+constexpr int bits_of_translations = 15, bits_of_rotations = 12, bits_of_scales = 12;
 
 /// Writes the transforms of instances, as floats, which need no normalisation by readers; nodes
 /// with equal ones share their accessors.

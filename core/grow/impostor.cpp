@@ -47,7 +47,7 @@ std::string extras_of(const ImpostorAtlas& atlas) {
 }  // namespace
 
 int frame_side_of(TextureSize texture_size) {
-    const int side = texture_size.value * 2 / 5 / frame_grid / 8 * 8;
+    const int side = texture_size.value / 3 / frame_grid / 8 * 8;
     return std::clamp(side, least_frame_side, largest_frame_side);
 }
 

@@ -16,7 +16,7 @@
 
 namespace sporeprint {
 
-/// Returns the side of a frame of an impostor, texels: all of them together are about two fifths as
+/// Returns the side of a frame of an impostor, texels: all of them together are about a third as
 /// wide as the images of LOD 0.
 [[nodiscard]] int frame_side_of(TextureSize texture_size);
 

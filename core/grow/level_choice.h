@@ -12,7 +12,7 @@ namespace sporeprint {
 
 /// Consecutive levels of one file have at most so many times the triangles of the next one, where
 /// levels between two whole ones can be inserted, and inserted ones at least so many times.
-inline constexpr double largest_step = 4.2, least_step = 1.8;
+inline constexpr double largest_step = 4.4, least_step = 1.8;
 
 /// Returns the level of detail with which a file begins: `lod` or, with `triangles`, the level whose
 /// count is nearest to it in ratio, of equally near ones the coarsest. Levels between whole ones are left out if the outline crosses

@@ -417,7 +417,7 @@ ImageSet encoded(const ImpostorAtlas& atlas, ImageFormat format, const Parallel&
                                             : jpeg(atlas.normal, side, side, 88, Chroma::full));
         },
         [&] {
-            keep(ImageKind::orm, is_webp ? webp(atlas.orm, side, side, 60)
+            keep(ImageKind::orm, is_webp ? webp(atlas.orm, side, side, 55)
                                          : jpeg(atlas.orm, side, side, 88, Chroma::full));
         }};
     parallel(tasks);

@@ -56,8 +56,8 @@ TEST_F(ImpostorsTest, EndTheLevelsThatADescriptionLists) {
         EXPECT_GE(levels[1].find("screen_coverage")->as_number(),
                   levels[2].find("screen_coverage")->as_number());
         const std::string text = text_of(ask(base + ".glb" + query + "&impostor=true"));
-        EXPECT_NE(text.find("_LOD4"), std::string::npos);
-        EXPECT_EQ(text_of(ask(base + ".glb" + query)).find("_LOD4"), std::string::npos);
+        EXPECT_NE(text.find("_impostor"), std::string::npos);
+        EXPECT_EQ(text_of(ask(base + ".glb" + query)).find("_impostor"), std::string::npos);
     }
 }
 

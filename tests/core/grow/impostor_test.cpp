@@ -250,8 +250,8 @@ TEST(Impostor, RefusesWhatItCannotHaveByName) {
 TEST(Impostor, FramesFollowTheSizeOfImages) {
     EXPECT_EQ(frame_side_of({128}), 32);
     EXPECT_EQ(frame_side_of({512}), 32);
-    EXPECT_EQ(frame_side_of({1024}), 56);
-    EXPECT_EQ(frame_side_of({2048}), 112);
+    EXPECT_EQ(frame_side_of({1024}), 48);
+    EXPECT_EQ(frame_side_of({2048}), 96);
 }
 
 }  // namespace

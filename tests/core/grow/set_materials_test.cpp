@@ -98,8 +98,9 @@ TEST(SetMaterials, EveryVertexHasTheColoursThatItHasWithoutAnAtlas) {
                     count += 3;
                 }
             }
-            EXPECT_LT(off / static_cast<double>(count), 1.5)
-                << "levels of 255 in image " << image << ": JPEG blocks are the same";
+            EXPECT_LT(off / static_cast<double>(count), 2.0)
+                << "levels of 255 in image " << image
+                << ": blocks of JPEG are the same, but for the chroma at borders of tiles";
         }
     }
 }

@@ -205,10 +205,16 @@ export interface components {
                     materials?: "full" | "core";
                     /**
                      * lods
-                     * @description Levels of detail in the file: that of lod alone, or all from it to the last with the images of the first. nodes: nodes named _LOD0 to _LOD3 at one place, for modelling programs (viewers draw all of them). msft: by MSFT_lod, where other readers show the first.
+                     * @description Levels of detail in the file: that of lod or triangles alone, or all from it to the last with the images of the first; a mushroom has a further level between two that differ by more than four times. nodes: nodes named _LOD0, _LOD1 and so on at one place, for modelling programs (viewers draw all of them). msft: by MSFT_lod, where other readers show the first.
                      * @enum {string}
                      */
                     lods?: "single" | "nodes" | "msft";
+                    /**
+                     * impostor
+                     * @description Whether the levels of detail of lods=nodes or lods=msft end with an impostor, that of lod=4: cards with pictures from all sides. A leaf has none.
+                     * @default false
+                     */
+                    impostor?: boolean;
                     /**
                      * collision
                      * @description Solids for a physics engine, the same at every level of detail: a capsule or convex meshes for stem and cap, for each individual of a colony, and for the trunk of a tree. nodes: meshes named UCX_..., as Unreal Engine expects, which viewers show. omi: a static body by OMI_physics_body and OMI_physics_shape, which Godot reads, with geometry as floats only. A leaf has none.
