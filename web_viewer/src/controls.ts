@@ -110,10 +110,12 @@ class Control {
         this.row.classList.toggle("set", set !== undefined);
         this.row.classList.toggle("inherited", set === undefined && this.field.owner !== "");
         this.reset.hidden = set === undefined;
-        // Hides what the species cannot have.
+        // Hides what the species cannot have. What follows from another parameter may have no value.
+        const isOfSpecies =
+            this.field.owner !== "" && this.settings.field(this.field.owner) === undefined;
         this.row.hidden =
             !this.settings.applies(this.field) ||
-            (this.field.owner !== "" &&
+            (isOfSpecies &&
                 set === undefined &&
                 effective !== undefined &&
                 own === undefined);
