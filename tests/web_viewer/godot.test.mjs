@@ -79,7 +79,7 @@ test("some level is visible on both sides of each distance, and none beyond the 
     const { pixels } = found.seen;
     assert.equal(pixels.length, 2 * found.mushroom.levels.length);
     for (const count of pixels.slice(0, -1)) assert.ok(count > 0, `${pixels}`);
-    assert.equal(pixels[5], 0);
+    assert.equal(pixels.at(-1), 0);
 });
 
 test("a tree moves in wind", async () => {
@@ -97,7 +97,7 @@ test("a tree moves in wind", async () => {
 test("an impostor ends the levels, and its shader shows what the mesh shows", () => {
     const { levels, pictures } = found.impostor;
     assert.equal(levels.length, 3);
-    assert.match(levels[2].name, /_LOD4$/);
+    assert.match(levels[2].name, /_from2_LOD2$/);
     assert.equal(levels[2].triangles, 12);
     const [mesh, quad] = pictures;
     assert.ok(mesh.covered > 500, `${mesh.covered} pixels`);

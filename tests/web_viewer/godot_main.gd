@@ -104,7 +104,7 @@ func _ready() -> void:
 	distant.parameters = {"texture_size": 1024, "seed": 3, "lod": 2, "impostor": "true"}
 	var impostor := await shown_model(distant)
 	impostor["pictures"] = []
-	var mesh: Mesh = distant.find_child("*_LOD2", true, false).mesh
+	var mesh: Mesh = distant.find_child("*_LOD0", true, false).mesh
 	for shown in [mesh, distant.as_impostor()]:
 		impostor.pictures.append(await picture_of(shown, mesh.get_aabb().get_center()))
 	distant.queue_free()
@@ -135,10 +135,12 @@ func _ready() -> void:
 			var middle: Vector3 = level.custom_aabb.get_center()
 			var eye := Camera3D.new()
 			view.add_child(eye)
-			eye.fov = 2.0
+			# The model is two thirds of the view, or less where it is far.
+			var distance: float = nearly * level.visibility_range_end
+			var side: float = level.custom_aabb.get_longest_axis_size()
+			eye.fov = maxf(2.0, rad_to_deg(2.0 * atan(0.75 * side / distance)))
 			eye.far = 1e4
-			eye.look_at_from_position(
-					middle + Vector3(0.0, 0.0, nearly * level.visibility_range_end), middle)
+			eye.look_at_from_position(middle + Vector3(0.0, 0.0, distance), middle)
 			for i in 3:
 				await RenderingServer.frame_post_draw
 			var picture := view.get_texture().get_image()
