@@ -120,6 +120,7 @@ std::vector<DetailLevel> levels_in_file(const MushroomSpec& spec, const Individu
     for (const DetailLevel level : std::span(whole).subspan(1))
         append_with_steps(chain, {level, triangles_at(individual, level, grows(spec))}, between);
     std::vector<DetailLevel> levels;
+    levels.reserve(chain.size());
     for (const Counted& one : chain) levels.push_back(one.level);
     return levels;
 }

@@ -234,6 +234,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     execution.observer(Step::pack);
     Mushroom grown;
     std::vector<std::vector<GlbPrimitive>> primitives;
+    primitives.reserve(meshes.size() + 1);
     for (const Mesh& mesh : meshes)
         primitives.push_back({{&mesh, 0, growth.targets, variant_materials(scene)}});
     if (impostor)

@@ -240,8 +240,9 @@ class FramePainter {
             glm::vec2 middle(0.0F);
             for (last = first; last < shown && visibility.same(at[last], at[first]); ++last) {
                 const auto side = static_cast<std::size_t>(visibility.side);
-                middle += glm::vec2(static_cast<float>(at[last] % side) + 0.5F,
-                                    static_cast<float>(at[last] / side) + 0.5F);
+                const std::size_t row = at[last] / side, column = at[last] % side;
+                middle +=
+                    glm::vec2(static_cast<float>(column) + 0.5F, static_cast<float>(row) + 0.5F);
                 depth += visibility.depth[at[last]];
             }
             const auto count = static_cast<float>(last - first);

@@ -34,7 +34,7 @@ struct DetailLevel {
     /// Returns the nearest whole level; half-way the coarser one.
     [[nodiscard]] constexpr int nearest() const { return lod + (2 * eighths >= steps ? 1 : 0); }
 
-    auto operator<=>(const DetailLevel&) const = default;
+    auto operator<=>(const DetailLevel&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// The counts of one level of detail.
