@@ -23,7 +23,8 @@ class TrianglesTest : public test::RequestedService {
     double number(const std::string& target, const std::string& pointer) {
         const Response response = ask(target);
         EXPECT_EQ(response.status, 200) << target << text_of(response);
-        const Value* found = json_of(response).at_pointer(pointer);
+        const Value document = json_of(response);
+        const Value* found = document.at_pointer(pointer);
         EXPECT_NE(found, nullptr) << target << ' ' << pointer;
         return found ? found->as_number() : -1.0;
     }
