@@ -500,7 +500,7 @@ test("repeated changes free all memory of the graphics card", async (t) => {
     assert.ok(parameters(page).has("seed"));
 });
 
-test("wireframe and named views change the picture, not the address", async (t) => {
+test("wireframe and named views change the picture, and the address has the view", async (t) => {
     const { page, log } = await open(t, `?species=${species[0].id}`);
     const plain = await stagePicture(page);
     await page.locator("#wireframe").click();
@@ -510,7 +510,13 @@ test("wireframe and named views change the picture, not the address", async (t) 
     await page.evaluate(() => window.sporeprint.view("below"));
     await page.evaluate(() => window.sporeprint.ready());
     assert.notDeepEqual(await stagePicture(page), wire);
-    assert.deepEqual([...parameters(page)], [["species", species[0].id]]);
+    assert.deepEqual(
+        [...parameters(page)],
+        [
+            ["species", species[0].id],
+            ["view", "below"],
+        ],
+    );
     expectNoProblems(log);
 });
 

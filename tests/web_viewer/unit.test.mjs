@@ -13,6 +13,8 @@ const { outputFiles } = packages("esbuild").buildSync({
         contents: [
             "arcs",
             "camera",
+            "close_ups",
+            "depth_of_field",
             "dom",
             "gallery",
             "history",
@@ -28,6 +30,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "weights",
         ]
             .map((name) => `export * from "./${name}";`)
+            .concat('export { PerspectiveCamera, Vector3 } from "three";')
             .join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
@@ -749,12 +752,13 @@ test("each level is drawn from where the one before ends, at the size that it st
 });
 
 test("the views are part of the page's address, and no request has them", () => {
-    const query = "panel=export&solids=hidden&weights=phase&level=2&fov=75&screen=2160";
+    const query = "panel=export&solids=hidden&weights=phase&level=2&fov=75&screen=2160" +
+        "&light=dusk&view=underside&aperture=2.8";
     const view = page.readView(new URLSearchParams(query));
     assert.equal(page.viewQuery(view), `&${query}`);
     assert.deepEqual(page.readView(new URLSearchParams()), page.initialView);
     assert.equal(page.viewQuery(page.initialView), "");
-    for (const wrong of ["panel=x", "weights=sway", "level=-1", "fov=9", "fov=x", "screen=1"])
+    for (const wrong of ["panel=x", "weights=sway", "level=-1", "fov=9", "fov=x", "screen=1", "light=neon", "view=behind", "aperture=3"])
         assert.deepEqual(page.readView(new URLSearchParams(wrong)), page.initialView, wrong);
     const settings = new page.Settings(
         page.groupsOf(schema).flatMap(({ fields }) => fields),
@@ -787,4 +791,54 @@ test("the request of a set has the options of the file and chooses seeds, ages a
     });
     const tree = new page.Settings([], "birch", page.trees);
     assert.equal(page.setRequestOf(tree, [0]), undefined, "a set consists of mushrooms");
+});
+
+test("points of an aperture are spread evenly over the unit disc", () => {
+    const points_ = Array.from({ length: 96 }, (_, index) => page.discPoint(index, 96));
+    for (const axis of [0, 1]) {
+        const mean = points_.reduce((sum, point) => sum + point[axis], 0) / 96;
+        assert.ok(Math.abs(mean) < 0.02, `${mean}`);
+        // The mean square of a coordinate over the disc is a quarter.
+        const square = points_.reduce((sum, point) => sum + point[axis] ** 2, 0) / 96;
+        assert.ok(Math.abs(square - 0.25) < 0.01, `${square}`);
+    }
+    assert.ok(points_.every(([x, y]) => Math.hypot(x, y) < 1));
+    // A lens of 52 mm before a sensor of 24 mm has an angle of 26 degrees.
+    assert.ok(Math.abs(page.apertureDiameter(4, 26) - 0.052 / 4) < 0.0001);
+});
+
+test("a shifted lens leaves what is in focus where it is, and moves what is farther away", () => {
+    const camera = new page.PerspectiveCamera(26, 1.5, 0.01, 100);
+    camera.position.set(0.3, 0.4, 1.2);
+    camera.lookAt(0, 0.1, 0);
+    camera.updateMatrixWorld();
+    const focus = camera.position.distanceTo(new page.Vector3(0, 0.1, 0));
+    const inFocus = camera.localToWorld(new page.Vector3(0.1, -0.05, -focus));
+    const behind = camera.localToWorld(new page.Vector3(0.1, -0.05, -2 * focus));
+    const before = [inFocus, behind].map((point) => point.clone().project(camera));
+    page.shiftLens(camera, 0.01, -0.02, focus);
+    camera.updateMatrixWorld();
+    const after = [inFocus, behind].map((point) => point.clone().project(camera));
+    assert.ok(Math.hypot(after[0].x - before[0].x, after[0].y - before[0].y) < 1e-9);
+    assert.ok(after[1].x > before[1].x && after[1].y < before[1].y, "what is behind follows the lens");
+});
+
+test("a form without a cap has no margin and no underside, a mix has those of its members", () => {
+    assert.equal(page.missingOfForms("margin", ["agaric"]), undefined);
+    assert.equal(page.missingOfForms("margin", ["puffball"]), "A puffball has no margin");
+    assert.equal(
+        page.missingOfForms("underside", ["earthstar"]),
+        "An earthstar has no underside to look at",
+    );
+    assert.equal(page.missingOfForms("margin", ["cup"]), undefined);
+    assert.ok(page.missingOfForms("underside", ["cup"]));
+    assert.equal(page.missingOfForms("underside", ["club", "bolete"]), undefined);
+    assert.equal(page.missingOfForms("underside", [undefined]), undefined, "a form not known here");
+    assert.equal(page.missingOfForms("base", ["club"]), undefined);
+});
+
+test("a close-up shows its size, of a small model a part", () => {
+    const of = (x, y, z) => page.frameOf(0.05, new page.Vector3(x, y, z));
+    assert.equal(of(0.1, 0.14, 0.1), 0.05);
+    assert.ok(Math.abs(of(0.01, 0.02, 0.01) - 0.014) < 1e-12);
 });

@@ -1,9 +1,17 @@
 // Camera positions from which a box is seen whole, and the scale of the picture.
 import { Vector3, type Box3, type PerspectiveCamera } from "three";
+import { closeUpNames, type CloseUpName, type CloseUpRules } from "./close_ups";
 
 export const viewNames = ["three-quarter", "front", "side", "top", "below"] as const;
 /** "roots" is from above, without the caps that hide the roots. */
 export type ViewName = (typeof viewNames)[number] | "roots";
+/** Everything that the camera can be moved to by name. */
+export type LookName = ViewName | CloseUpName;
+export const lookNames: readonly LookName[] = [...viewNames, "roots", ...closeUpNames];
+
+export function isCloseUp(name: LookName): name is CloseUpName {
+    return closeUpNames.some((one) => one === name);
+}
 
 /** Returns the unit direction from the model to the camera; azimuth from +Z to +X and elevation,
  *  degrees. */
@@ -42,6 +50,40 @@ export const lying: Directions = {
     roots: towards(180, 89.9),
     below: towards(160, -60),
 };
+
+/** Close-ups of an upright mushroom. */
+export const standingCloseUps: CloseUpRules = {
+    margin: { frame: 0.05, direction: towards(32, 10) },
+    underside: { frame: 0.06, direction: towards(32, -34) },
+    base: { frame: 0.08, direction: towards(32, 9) },
+};
+
+/** Close-ups of a group: those of its foremost individual. */
+export const spreadCloseUps: CloseUpRules = {
+    ...standingCloseUps,
+    base: { frame: 0.08, direction: towards(32, 14) },
+    many: true,
+};
+
+/** Close-ups of a model that lies on the ground along +Z. */
+export const lyingCloseUps: CloseUpRules = {
+    margin: { frame: 0.05, direction: towards(110, 50) },
+    underside: { frame: 0.06, direction: towards(110, -55) },
+    base: { frame: 0.08, direction: towards(200, 50) },
+};
+
+/** A tree is too large for the close-ups of its crown; its base shows the foot of the trunk. */
+export const treeCloseUps: CloseUpRules = {
+    margin: "A tree has no margin; its leaves are at Leaves",
+    underside: "A tree has no underside: Below shows the crown",
+    base: { frame: 0.8, direction: towards(32, 10) },
+};
+
+/** Returns the distance at which the shorter side of the picture shows `frame` metres. */
+export function framingDistance(frame: number, camera: PerspectiveCamera): number {
+    const shorter = Math.min(1, camera.aspect) * Math.tan((camera.fov * Math.PI) / 360);
+    return frame / (2 * shorter);
+}
 
 /** Margins around the model as fractions of the picture: name plate and buttons are there. */
 export interface Margin {

@@ -76,7 +76,7 @@ export class ContactShadow extends Group {
     private readonly sheet = new PlaneGeometry(2, 2);
     private readonly screen = new Mesh(this.sheet, this.blur);
     private readonly screenCamera = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
-    private readonly plane: Mesh;
+    private readonly plane: Mesh<PlaneGeometry, MeshBasicMaterial>;
 
     constructor() {
         super();
@@ -95,6 +95,10 @@ export class ContactShadow extends Group {
         this.camera.rotation.x = Math.PI / 2;
         this.screen.frustumCulled = false;
         this.add(this.plane);
+    }
+
+    set opacity(opacity: number) {
+        this.plane.material.opacity = opacity;
     }
 
     /** Draws the shadow of `model`, a child of `scene`, on a square of half width `half`; `height`

@@ -11,17 +11,14 @@ import { valueAt } from "./schema";
 import type { Settings } from "./settings";
 import { describedSolids, solidsOf } from "./solids";
 import type { Stage } from "./stage";
-import { initialView, windChannels, type PanelName, type ViewState } from "./view_state";
+import { windChannels, type ViewState, type ViewStore } from "./view_state";
 
 export interface ExportPanelEvents {
-    /** The state of the views was changed. */
-    viewChanged: (view: ViewState) => void;
     /** Another level of detail was chosen for the file; the settings have it already. */
     lodChosen: () => void;
 }
 
 export class ExportPanel {
-    private view: ViewState = initialView;
     private loaded: LoadedModel | undefined;
     private report: ModelReport | undefined;
     /** Levels that are finer than the file of one level, as files of their own. */
@@ -31,21 +28,23 @@ export class ExportPanel {
     constructor(
         private readonly settings: Settings,
         private readonly stage: Stage,
+        private readonly views: ViewStore,
         private readonly events: ExportPanelEvents,
     ) {
+        views.listen(() => this.apply());
         this.list = new LevelList({
-            changed: (camera) => this.change(camera),
+            changed: (camera) => views.change(camera),
             chosen: (lod) => this.chooseLevel(lod),
         });
         const solids = byId<HTMLButtonElement>("solids");
-        solids.addEventListener("click", () => this.change({ solids: !this.view.solids }));
+        solids.addEventListener("click", () => this.views.change({ solids: !this.view.solids }));
         for (const channel of windChannels) {
             const label = channel.charAt(0).toUpperCase() + channel.slice(1);
             const title = channel === "all" ? "Bend red, flutter green, phase blue" : undefined;
             const attributes = { type: "button", title, "data-channel": channel };
             const button = make("button", attributes, label);
             button.addEventListener("click", () =>
-                this.change({ weights: this.view.weights === channel ? undefined : channel }),
+                this.views.change({ weights: this.view.weights === channel ? undefined : channel }),
             );
             byId("wind-channels").append(button);
         }
@@ -55,17 +54,6 @@ export class ExportPanel {
     /** The levels of detail from that of the file on. */
     get lods(): number[] {
         return (this.report?.levels ?? []).map(({ lod }) => lod);
-    }
-
-    /** The open panel is part of the same state. */
-    set panel(panel: PanelName) {
-        this.change({ panel });
-    }
-
-    /** Shows the state of the page's URL. */
-    read(view: ViewState): void {
-        this.view = view;
-        this.apply();
     }
 
     /** Shows what the file of a model costs. */
@@ -84,11 +72,14 @@ export class ExportPanel {
         const lod = this.lods[0];
         if (!this.inFile && this.view.level !== undefined && this.view.level !== lod) {
             // The level was changed elsewhere.
-            this.view = { ...this.view, level: lod };
-            this.events.viewChanged(this.view);
+            this.views.change({ level: lod });
         }
         this.apply();
         void this.addFinerLevels(report);
+    }
+
+    private get view(): ViewState {
+        return this.views.current;
     }
 
     private get inFile(): boolean {
@@ -112,14 +103,8 @@ export class ExportPanel {
         return rangesOf(this.levels, size, this.view.fov, this.view.screen);
     }
 
-    private change(changes: Partial<ViewState>): void {
-        this.view = { ...this.view, ...changes };
-        this.apply();
-        this.events.viewChanged(this.view);
-    }
-
     private chooseLevel(lod: number | undefined): void {
-        this.change({ level: lod });
+        this.views.change({ level: lod });
         if (lod === undefined || this.inFile || lod === this.lods[0]) return;
         this.settings.set("lod", lod);
         this.events.lodChosen();

@@ -68,6 +68,11 @@ export class FileActions {
         });
     }
 
+    /** The name of the shown model: that of its file without an ending. */
+    get modelName(): string {
+        return this.shown ? this.fileName(this.shown).replace(/\.glb$/, "") : this.noun;
+    }
+
     /** Lets the buttons act on this model; drafts cannot be taken away. */
     show(loaded: LoadedModel): void {
         this.shown = loaded;

@@ -38,11 +38,12 @@ async function open(): Promise<void> {
         getJson<Schema>(`${product.path}/schema`),
         product.list(),
     ]);
-    const { directions, liesOnGround: lies } = product;
+    const { closeUps, directions, liesOnGround: lies } = product;
     const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), {
         reducedMotion: reducedMotion,
         withoutMargins: shot,
         directions,
+        closeUps,
         liesOnGround: lies,
     });
     const page = new Page(

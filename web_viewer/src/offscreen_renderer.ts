@@ -4,7 +4,6 @@ import {
     PerspectiveCamera,
     Sphere,
     Vector3,
-    type DirectionalLight,
     type Object3D,
     type Scene,
     type WebGLRenderer,
@@ -12,8 +11,8 @@ import {
 import { fittingDistance, standing, type Directions, type Margin, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
+import { litScene, type SceneLight } from "./lit_scene";
 import { boundsOf } from "./model";
-import { aimSun, litScene } from "./stage";
 
 export interface RenderOptions {
     view: ViewName;
@@ -30,19 +29,19 @@ export class OffscreenRenderer {
     readonly canvas = document.createElement("canvas");
     private readonly renderer: WebGLRenderer;
     private readonly scene: Scene;
-    private readonly sun: DirectionalLight;
+    private readonly light: SceneLight;
     private readonly camera: PerspectiveCamera;
     private readonly ground = new Ground();
     private readonly contact = new ContactShadow();
 
     /** Pictures have `width` times `height` pixels. */
     constructor(width: number, height = width) {
-        const { renderer, scene, sun } = litScene(this.canvas, true);
+        const { renderer, scene, light } = litScene(this.canvas, true);
         this.renderer = renderer;
         this.scene = scene;
-        this.sun = sun;
+        this.light = light;
         renderer.setSize(width, height, false);
-        sun.shadow.mapSize.set(512, 512);
+        light.sun.shadow.mapSize.set(512, 512);
         this.camera = new PerspectiveCamera(24, width / height, 0.001, 100);
         this.ground.makeInvisible();
         this.scene.add(this.ground, this.contact);
@@ -65,7 +64,7 @@ export class OffscreenRenderer {
         this.camera.far = distance * 10;
         this.camera.lookAt(centre);
         this.camera.updateProjectionMatrix();
-        aimSun(this.sun, ball);
+        this.light.aim(ball);
         this.scene.add(model);
         this.ground.visible = this.contact.visible = onGround;
         if (onGround) {
@@ -82,7 +81,7 @@ export class OffscreenRenderer {
     }
 
     dispose(): void {
-        this.scene.environment?.dispose();
+        this.light.dispose();
         this.renderer.dispose();
         this.renderer.forceContextLoss();
     }

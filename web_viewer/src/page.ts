@@ -1,7 +1,8 @@
 // The page of one product: passes events between the parts, each of which knows the settings but
 // none of the other parts.
 import { AddressBar } from "./address_bar";
-import type { ViewName } from "./camera";
+import { isCloseUp, type LookName } from "./camera";
+import { closeUpNames, missingOfForms } from "./close_ups";
 import { Controls } from "./controls";
 import { byId, grouped, kilobytes } from "./dom";
 import { MorphEditor } from "./editor";
@@ -21,6 +22,7 @@ import { countsOf, linkedImagesOf, modelVariants, modelWind, type Counts } from 
 import { NamePlate, type ColonyCount } from "./name_plate";
 import { DraftTextures } from "./draft_textures";
 import { PanelTabs } from "./panel_tabs";
+import { PhotoTools } from "./photo_tools";
 import { ProblemBox } from "./problem_box";
 import { mushrooms, type Product } from "./products";
 import { showProgress } from "./progress_box";
@@ -31,10 +33,13 @@ import { Sheet, sheetButtons } from "./sheet";
 import type { Stage } from "./stage";
 import { announce } from "./status_line";
 import { Toolbar } from "./toolbar";
-import { panels, readView, type PanelName } from "./view_state";
+import { panels, readView, ViewStore, type ViewState } from "./view_state";
 
 /** Time in which quick changes become one request, milliseconds. */
 const changeDelayMs = 60;
+
+/** How much larger than the canvas a saved picture is. */
+const pictureScale = 2;
 
 /** Returns a group with the profile first, which sets the defaults of other options. */
 function profileFirst(group: Group): Group {
@@ -71,6 +76,7 @@ export class Page {
     private readonly address: AddressBar;
     private readonly gallery: Gallery;
     private readonly controls: Controls;
+    private readonly views: ViewStore;
     private readonly tabs: PanelTabs;
     private readonly exports: ExportPanel;
     private readonly editor: MorphEditor;
@@ -84,6 +90,8 @@ export class Page {
     private readonly actions: FileActions;
     private readonly problems = new ProblemBox((item) => this.showBeside(item));
     private loaded: LoadedModel | undefined;
+    /** The named view that the camera has; undefined once it was turned by hand. */
+    private looked: LookName | undefined = "three-quarter";
 
     constructor({ stage, links, product, schema, species }: PageParts, options: PageOptions) {
         this.stage = stage;
@@ -97,9 +105,9 @@ export class Page {
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
         connectSearch(this.gallery);
         this.plate = new NamePlate(product, (id) => this.gallery.find(id));
-        this.tabs = new PanelTabs((name) => this.writePanel(name));
-        this.exports = new ExportPanel(this.settings, stage, {
-            viewChanged: (view) => this.address.writeView(view),
+        this.views = new ViewStore((view) => this.address.writeView(view));
+        this.tabs = new PanelTabs((panel) => this.views.change({ panel }));
+        this.exports = new ExportPanel(this.settings, stage, this.views, {
             lodChosen: () => this.changed("lod"),
         });
         this.actions = new FileActions(product.noun, () =>
@@ -153,6 +161,14 @@ export class Page {
             variant: (name) => void this.stage.showVariant(name),
             lodChosen: () => this.changed("lod"),
         });
+        new PhotoTools(stage, this.views, () => this.savePicture());
+        this.views.listen((view) => this.showLook(view));
+        this.toolbar.markView(this.looked);
+        stage.onTurned = () => this.forgetLook();
+        stage.onKey = (view) => {
+            const name = view === "home" ? "three-quarter" : this.toolbar.looks[view];
+            if (name && this.missing(name) === undefined) this.view(name, false);
+        };
         stage.onFrame = () => showScaleBar(stage, product.noun);
         links.connect({ species: () => this.leaveEditor(), morph: () => this.enterEditor() });
         if (product.canMorph) byId("sheets").append(sheetButtons((kind) => this.sheet.show(kind)));
@@ -182,10 +198,69 @@ export class Page {
         return countsOf(this.loaded.model);
     }
 
-    /** Looks from a named side. */
-    view(name: ViewName, atOnce = true): void {
-        this.stage.view(name, atOnce);
+    /** Looks from a named side or at a part. */
+    view(name: LookName, atOnce = true): void {
+        this.stage.look(name, atOnce);
+        this.looked = name;
+        this.views.change({ look: name === "three-quarter" ? undefined : name });
         this.toolbar.markView(name);
+    }
+
+    /** Shows the view of the page's URL; a view that this product does not have is ignored. */
+    private showLook({ look }: ViewState): void {
+        if (look === undefined || look === this.looked) return;
+        if (!this.toolbar.looks.includes(look)) return;
+        this.looked = look;
+        this.stage.look(look, false);
+        this.toolbar.markView(look);
+    }
+
+    /** The camera was turned by hand. The view of the roots also hides what is above them, which
+     *  stays so. */
+    private forgetLook(): void {
+        if (this.looked === undefined || this.looked === "roots") return;
+        this.looked = undefined;
+        this.toolbar.markView(undefined);
+        if (this.views.current.look) this.views.change({ look: undefined });
+    }
+
+    /** Returns why what is shown cannot be looked at in this way, undefined if it can. */
+    private missing(name: LookName): string | undefined {
+        if (!isCloseUp(name)) return undefined;
+        const rule = this.product.closeUps[name];
+        if (typeof rule === "string") return rule;
+        if (this.product.ofSpecies) {
+            const members = readShares(this.settings.mix) ?? [];
+            const forms = members.map(({ id }) => this.gallery.find(id)?.form);
+            const missing = missingOfForms(name, forms);
+            if (missing) return missing;
+        }
+        if (!this.loaded || this.stage.canLookAt(name)) return undefined;
+        return `The ${name} cannot be seen at this age`;
+    }
+
+    /** Offers the close-ups that the shown model has; a view that it does not have ends. */
+    private offerCloseUps(): void {
+        for (const name of closeUpNames) this.toolbar.offerCloseUp(name, this.missing(name));
+        const { looked } = this;
+        if (looked && this.missing(looked) !== undefined) this.view("three-quarter", false);
+    }
+
+    /** Saves the picture twice as large as it is on the stage. */
+    private async savePicture(): Promise<void> {
+        announce("Drawing the picture");
+        // With depth of field it may take a second: the message is shown before.
+        await new Promise((resolve) => setTimeout(resolve, 30));
+        try {
+            const { light, look } = this.views.current;
+            const details = [look, light === "daylight" ? undefined : light].filter(Boolean);
+            const name = [this.actions.modelName, ...details].join("_");
+            saveFile(await this.stage.snapshot(pictureScale), `${name}.png`);
+        } catch (error) {
+            const failed = asRequestFailed(error, "The picture could not be saved");
+            this.problems.show(failed);
+            announce(`${failed.title}. ${failed.detail}`);
+        }
     }
 
     /** Chooses a species of the gallery, or a member of the morph. */
@@ -227,15 +302,11 @@ export class Page {
         this.loader.loadFinal(false, changeDelayMs);
     }
 
-    private writePanel(panel: PanelName): void {
-        this.exports.panel = panel;
-    }
-
     private openPanelOf(element: HTMLElement): void {
         const hidden = panels.find((name) => byId(`panel-${name}`).contains(element));
         if (!hidden || !byId(`panel-${hidden}`).hidden) return;
         this.tabs.open(hidden);
-        this.writePanel(hidden);
+        this.views.change({ panel: hidden });
     }
 
     private readAddress(): void {
@@ -244,7 +315,7 @@ export class Page {
         const { otherMix, rejected, sheet } = contents;
         const view = readView(new URLSearchParams(location.search));
         this.tabs.open(view.panel);
-        this.exports.read(view);
+        this.views.read(view);
         this.begin(otherMix || !this.loaded);
         this.problems.showRejected(rejected);
         if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) {
@@ -298,6 +369,7 @@ export class Page {
         this.toolbar.offerWind(modelWind(loaded.model) !== undefined);
         this.toolbar.offerVariants(modelVariants(loaded.model)?.names ?? []);
         if (!loaded.draft) {
+            this.offerCloseUps();
             this.controls.clearErrors();
             this.matrix?.clearErrors();
         }

@@ -1,6 +1,18 @@
 // The products that the page shows, one table: mushrooms, colonies of them, and what is made from
 // presets. Routes, navigation, views and words of each are described here only.
-import { lying, spread, standing, type Directions, type ViewName, viewNames } from "./camera";
+import {
+    lying,
+    lyingCloseUps,
+    spread,
+    spreadCloseUps,
+    standing,
+    standingCloseUps,
+    treeCloseUps,
+    type Directions,
+    type ViewName,
+    viewNames,
+} from "./camera";
+import type { CloseUpRules } from "./close_ups";
 import type { Species } from "./gallery";
 import { getJson } from "./http";
 
@@ -23,6 +35,7 @@ export interface Product {
     views: readonly ViewName[];
     /** Camera directions by name of a view. */
     directions: Directions;
+    closeUps: CloseUpRules;
     /** Query of the pictures of its gallery, twice as large as they are shown. */
     pictureQuery: string;
     /** It is lifted so that nothing of it is below the ground. */
@@ -49,6 +62,7 @@ export const mushrooms: Product = {
     ofSpecies: true,
     views: viewNames,
     directions: standing,
+    closeUps: standingCloseUps,
     pictureQuery,
     liesOnGround: false,
     hasMatrix: false,
@@ -66,6 +80,7 @@ export const colonies: Product = {
     ofSpecies: true,
     views: [...viewNames, "roots"],
     directions: spread,
+    closeUps: spreadCloseUps,
     pictureQuery,
     liesOnGround: false,
     hasMatrix: false,
@@ -82,6 +97,7 @@ export const leaves: Product = {
     ofSpecies: false,
     views: viewNames,
     directions: lying,
+    closeUps: lyingCloseUps,
     pictureQuery,
     liesOnGround: true,
     hasMatrix: false,
@@ -98,6 +114,7 @@ export const trees: Product = {
     ofSpecies: false,
     views: viewNames,
     directions: standing,
+    closeUps: treeCloseUps,
     pictureQuery,
     liesOnGround: false,
     hasMatrix: true,

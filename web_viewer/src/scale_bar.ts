@@ -12,6 +12,7 @@ export function showScaleBar(stage: Stage, noun: string): void {
     const text = metres < 1 ? centimetres(metres) : `${metres} m`;
     const label = byId("scale-text");
     if (label.textContent !== text) label.textContent = text;
-    const spacing = centimetres(stage.ruling);
-    label.title = `At the depth of the ${noun}. Lines on the ground every ${spacing}.`;
+    const { ruling } = stage;
+    const lines = ruling ? ` Lines on the ground every ${centimetres(ruling)}.` : "";
+    label.title = `At the depth of the ${noun}.${lines}`;
 }

@@ -1,25 +1,23 @@
-// The stage: one model in daylight on a sheet of paper, drawn only when something has changed.
-import {
-    Box3,
-    DirectionalLight,
-    HemisphereLight,
-    NeutralToneMapping,
-    PCFShadowMap,
-    PerspectiveCamera,
-    PMREMGenerator,
-    Scene,
-    Sphere,
-    Spherical,
-    Vector3,
-    WebGLRenderer,
-    type Object3D,
-} from "three";
-import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
+// The stage: one model in one of the lights on the ground, drawn only when something has changed.
+import { Box3, Sphere, Vector3, type Object3D, type Scene, type WebGLRenderer } from "three";
 import { distanceOf } from "./level_ranges";
-import { fittingDistance, pixelsPerMetre, type Directions, type ViewName } from "./camera";
+import { Backdrop } from "./backdrop";
+import {
+    fittingDistance,
+    framingDistance,
+    isCloseUp,
+    pixelsPerMetre,
+    type Directions,
+    type LookName,
+    type ViewName,
+} from "./camera";
+import { CameraRig } from "./camera_rig";
+import { closeUpOf, type CloseUp, type CloseUpName, type CloseUpRules } from "./close_ups";
 import { ContactShadow } from "./contact_shadow";
+import { DepthOfField } from "./depth_of_field";
 import { Ground } from "./ground";
+import type { LightName } from "./lights";
+import { litScene, type SceneLight } from "./lit_scene";
 import { Wind } from "../clients/three/wind";
 import {
     boundsOf,
@@ -32,14 +30,15 @@ import {
     texturesOf,
 } from "./model";
 import { niceStep } from "./schema";
+import { snapshot, type DrawTile } from "./snapshot";
 import { solidsOf } from "./solids";
 import type { WindChannelView } from "./view_state";
 
 /** Speed of the wind in which models sway, m/s. */
 const breezeSpeed = 3;
 
-/** Light from the upper left, as in the plates of field guides. */
-const sunDirection = new Vector3(-0.55, 1.3, 0.66).normalize();
+/** The nearest that the camera comes to any model, metres. */
+const nearest = 0.01;
 
 export interface Size {
     /** Height above the ground, metres; the whole height if all of it is below. */
@@ -56,68 +55,44 @@ export interface StageStyle {
     withoutMargins: boolean;
     /** Camera directions by name of a view. */
     directions: Directions;
+    closeUps: CloseUpRules;
     /** The model is lifted so that nothing of it is below the ground. */
     liesOnGround: boolean;
 }
 
-/** Returns a renderer and a lit scene, the same for the stage and for thumbnails. */
-export function litScene(
-    canvas: HTMLCanvasElement,
-    antialias: boolean,
-): {
-    renderer: WebGLRenderer;
-    scene: Scene;
-    sun: DirectionalLight;
-} {
-    const renderer = new WebGLRenderer({ canvas, antialias, alpha: true });
-    renderer.toneMapping = NeutralToneMapping;
-    renderer.toneMappingExposure = 1;
-    renderer.shadowMap.enabled = true;
-    renderer.shadowMap.type = PCFShadowMap;
-    const scene = new Scene();
-    const environment = new RoomEnvironment();
-    const generator = new PMREMGenerator(renderer);
-    scene.environment = generator.fromScene(environment, 0.04).texture;
-    scene.environmentIntensity = 0.5;
-    generator.dispose();
-    environment.dispose();
-    const sun = new DirectionalLight(0xfff2dd, 2.1);
-    sun.castShadow = true;
-    sun.shadow.mapSize.set(1024, 1024);
-    sun.shadow.radius = 5;
-    // Light reflected by the paper makes gills and pores visible from below.
-    const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 1.5);
-    scene.add(sun, sun.target, bounce);
-    return { renderer, scene, sun };
+/** Colours of the stage in the page's style. */
+export interface StageColours {
+    ink: string;
+    shadow: string;
+    /** Of the sheet behind the model, from its middle outwards. */
+    sheet: readonly [string, string, string];
 }
 
-/** Fits the sun's shadow camera to a model of this size. */
-export function aimSun(sun: DirectionalLight, ball: Sphere): void {
-    const reach = ball.radius * 1.7;
-    sun.target.position.copy(ball.center);
-    sun.position
-        .copy(sunDirection)
-        .multiplyScalar(ball.radius * 4)
-        .add(ball.center);
-    const camera = sun.shadow.camera;
-    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach });
-    camera.near = ball.radius;
-    camera.far = ball.radius * 8;
-    camera.updateProjectionMatrix();
-    sun.shadow.normalBias = ball.radius * 0.006;
-    sun.shadow.bias = -0.0006;
-    sun.target.updateMatrixWorld();
+/** What the picture shows at the depth of the target of the camera, metres. */
+export interface Frame {
+    width: number;
+    height: number;
+    target: [number, number, number];
 }
 
 export class Stage {
     readonly renderer: WebGLRenderer;
-    readonly camera = new PerspectiveCamera(26, 1, 0.001, 10);
     /** Called after each drawn frame. */
     onFrame: () => void = () => undefined;
+    /** Called when the user moves the camera by hand. */
+    onTurned: () => void = () => undefined;
+    /** Called when the user chooses a view by a key: its number from 0 on. */
+    onKey: (view: number | "home") => void = () => undefined;
 
     private readonly scene: Scene;
-    private readonly sun: DirectionalLight;
-    private readonly controls: OrbitControls;
+    private readonly light: SceneLight;
+    private readonly rig: CameraRig;
+    private readonly lens: DepthOfField;
+    private fNumber: number | undefined;
+    /** Something was changed since the last frame. */
+    private changed = true;
+    private looked: LookName | undefined;
+    private readonly backdrop = new Backdrop();
     private readonly ground = new Ground();
     private readonly contact = new ContactShadow();
     private model: Object3D | undefined;
@@ -126,7 +101,6 @@ export class Stage {
     private framed = new Box3();
     private rootsOnly = false;
     private frameRequested = false;
-    private movement = 0;
     private wireframe_ = false;
     private readonly wind = new Wind();
     private swaying_ = false;
@@ -141,21 +115,25 @@ export class Stage {
         canvas: HTMLCanvasElement,
         private readonly style: StageStyle,
     ) {
-        const { renderer, scene, sun } = litScene(canvas, true);
+        const home = style.directions["three-quarter"];
+        const azimuth = (Math.atan2(home.x, home.z) * 180) / Math.PI;
+        const { renderer, scene, light } = litScene(canvas, true, azimuth);
         this.renderer = renderer;
         this.scene = scene;
-        this.sun = sun;
-        this.scene.add(this.ground, this.contact);
+        this.light = light;
+        this.lens = new DepthOfField(renderer);
+        this.scene.add(this.backdrop, this.ground, this.contact);
         this.ground.visible = false;
         this.contact.visible = false;
-        this.controls = new OrbitControls(this.camera, canvas);
+        this.rig = new CameraRig(canvas, style.reducedMotion, {
+            moved: () => this.draw(),
+            turned: () => {
+                if (this.looked !== "roots") this.looked = undefined;
+                this.onTurned();
+            },
+            chosen: (view) => this.onKey(view),
+        });
         this.wind.velocity.set(0, 0);
-        this.controls.enableDamping = !style.reducedMotion;
-        this.controls.dampingFactor = 0.12;
-        this.controls.zoomToCursor = true;
-        this.controls.addEventListener("change", () => this.draw());
-        this.controls.addEventListener("start", () => (this.movement += 1));
-        canvas.addEventListener("keydown", (event) => this.onKey(event));
         canvas.addEventListener("webglcontextrestored", () => this.draw());
         new ResizeObserver(() => this.resize()).observe(host);
         this.resize();
@@ -170,22 +148,56 @@ export class Stage {
     }
 
     get pixelsPerMetre(): number {
-        return pixelsPerMetre(this.camera, this.controls.target, this.host.clientHeight);
+        return pixelsPerMetre(this.rig.camera, this.rig.target, this.host.clientHeight);
     }
 
-    /** Returns the metres between two lines on the ground. */
-    get ruling(): number {
+    get frameShown(): Frame {
+        const { clientWidth, clientHeight } = this.host;
+        const metres = 1 / this.pixelsPerMetre;
+        const { x, y, z } = this.rig.target;
+        return { width: clientWidth * metres, height: clientHeight * metres, target: [x, y, z] };
+    }
+
+    /** Returns the metres between two lines on the ground, undefined if it has none. */
+    get ruling(): number | undefined {
+        return this.light.current.ruled ? this.spacing : undefined;
+    }
+
+    private get spacing(): number {
         const size = this.bounds.getSize(new Vector3());
         return niceStep(Math.max(size.x, size.y, size.z) / 5) || 0.01;
     }
 
-    setColours(ink: string, shadow: string): void {
+    setColours({ ink, shadow, sheet }: StageColours): void {
         this.ground.colours(ink, shadow);
+        this.backdrop.colours(...sheet);
         this.draw();
     }
 
-    set ruled(shown: boolean) {
-        this.ground.ruledLines = shown;
+    /** Shows everything in another light. */
+    useLight(name: LightName): void {
+        this.light.use(name);
+        const { background, contact, ruled, shadow, soil } = this.light.current;
+        this.backdrop.visible = background === "sheet";
+        this.ground.ruledLines = ruled;
+        this.ground.soil = soil;
+        this.ground.shadowOpacity = shadow;
+        this.contact.opacity = contact;
+        if (this.model) this.light.aim(this.bounds.getBoundingSphere(new Sphere()));
+        this.draw();
+    }
+
+    /** Returns true if this graphics card can show depth of field. */
+    get hasDepthOfField(): boolean {
+        return this.lens.possible;
+    }
+
+    /** Sets the stop of the lens; undefined for a picture that is sharp everywhere. */
+    set aperture(fNumber: number | undefined) {
+        const possible = this.lens.possible ? fNumber : undefined;
+        if (possible === this.fNumber) return;
+        this.fNumber = possible;
+        if (this.fNumber === undefined) this.lens.dispose();
         this.draw();
     }
 
@@ -256,7 +268,7 @@ export class Stage {
         if (wind) this.wind.attach(model, wind);
         for (const texture of texturesOf(model)) this.renderer.initTexture(texture);
         if (this.renderer.getContext().getExtension("KHR_parallel_shader_compile")) {
-            await this.renderer.compileAsync(model, this.camera, this.scene);
+            await this.renderer.compileAsync(model, this.rig.camera, this.scene);
         }
         if (!current()) {
             disposeModel(model);
@@ -274,7 +286,7 @@ export class Stage {
             disposeModel(old);
         }
         this.fitGround();
-        if (refit || !old || this.outOfPicture()) this.fit(old ? undefined : "three-quarter", !old);
+        this.frameModel(refit, !old);
         this.draw();
         return true;
     }
@@ -285,46 +297,87 @@ export class Stage {
         this.draw();
     }
 
-    /** Looks from a named side. */
-    view(name: ViewName, atOnce = true): void {
+    /** Looks from a named side, or at a part of the model; without such a part it is shown whole.
+     *  A model that is loaded later is looked at in the same way. */
+    look(name: LookName, atOnce = true): void {
+        this.looked = name;
         if (this.rootsOnly !== (name === "roots")) {
             this.rootsOnly = !this.rootsOnly;
             this.applyRootsOnly();
             this.castContact();
         }
-        this.fit(name, atOnce);
+        if (isCloseUp(name)) {
+            if (!this.lookCloser(name, atOnce)) this.fit("three-quarter", atOnce);
+        } else {
+            this.fit(name, atOnce);
+        }
+    }
+
+    /** Returns true if the model has the part that a close-up looks at. */
+    canLookAt(name: CloseUpName): boolean {
+        return this.closeUp(name) !== undefined;
     }
 
     /** Moves the camera so that the whole model is in the picture. */
     fit(name?: ViewName, atOnce = false): void {
         if (this.bounds.isEmpty()) return;
-        const direction = name
-            ? this.style.directions[name].clone()
-            : this.camera.position.clone().sub(this.controls.target).normalize();
+        const { camera, direction: current } = this.rig;
+        const direction = name ? this.style.directions[name].clone() : current;
         if (direction.lengthSq() === 0) direction.copy(this.style.directions["three-quarter"]);
         const centre = this.framed.getCenter(new Vector3());
+        let distance: number;
         if (this.heldPixels !== undefined) {
             const side = this.bounds.getSize(new Vector3());
             const coverage = this.heldPixels / (this.host.clientHeight || 1);
-            const distance = distanceOf(
-                Math.max(side.x, side.y, side.z),
-                coverage,
-                this.camera.fov,
-            );
-            const position = direction.multiplyScalar(distance).add(centre);
-            return this.moveTo(centre, position, atOnce || this.style.reducedMotion);
+            distance = distanceOf(Math.max(side.x, side.y, side.z), coverage, camera.fov);
+        } else {
+            const margin = this.style.withoutMargins
+                ? { x: 0.06, y: 0.06 }
+                : this.host.clientWidth < 520
+                  ? { x: 0.12, y: 0.36 }
+                  : { x: 0.14, y: 0.26 };
+            distance = fittingDistance(this.framed, direction, camera, margin);
         }
-        const margin = this.style.withoutMargins
-            ? { x: 0.06, y: 0.06 }
-            : this.host.clientWidth < 520
-              ? { x: 0.12, y: 0.3 }
-              : { x: 0.14, y: 0.26 };
-        const distance = fittingDistance(this.framed, direction, this.camera, margin);
-        this.moveTo(
-            centre,
-            direction.multiplyScalar(distance).add(centre),
-            atOnce || this.style.reducedMotion,
-        );
+        this.rig.moveTo(centre, direction.multiplyScalar(distance).add(centre), atOnce);
+    }
+
+    /** Returns a PNG of the picture that is `scale` times as large as the canvas; throws an error
+     *  that says so if that is too large. */
+    async snapshot(scale: number): Promise<Blob> {
+        const { camera } = this.rig;
+        const drawTile: DrawTile = (tile) => {
+            this.backdrop.tile = tile;
+            if (this.fNumber === undefined) this.renderer.render(this.scene, camera);
+            else this.lens.complete(this.scene, camera, this.fNumber, this.rig.distance);
+        };
+        return snapshot(this.renderer.domElement, camera, scale, drawTile, () => {
+            this.backdrop.tile = [0, 0, 1, 1];
+            this.changed = true;
+            this.frame();
+        });
+    }
+
+    /** Moves the camera if a new model or a new size of the stage needs it. */
+    private frameModel(refit: boolean, first: boolean): void {
+        const { looked } = this;
+        // A part is followed when it moves.
+        if (looked && isCloseUp(looked) && this.lookCloser(looked, first || !refit)) return;
+        if (first) return this.fit(looked && !isCloseUp(looked) ? looked : "three-quarter", true);
+        if (refit || this.outOfPicture()) this.fit();
+    }
+
+    private closeUp(name: CloseUpName): CloseUp | undefined {
+        return this.model && closeUpOf(this.model, name, this.style.closeUps, this.bounds);
+    }
+
+    private lookCloser(name: CloseUpName, atOnce: boolean): boolean {
+        const closeUp = this.closeUp(name);
+        if (!closeUp) return false;
+        const { target, direction, frame } = closeUp;
+        const distance = framingDistance(frame, this.rig.camera);
+        const position = direction.clone().multiplyScalar(distance).add(target);
+        this.rig.moveTo(target, position, atOnce);
+        return true;
     }
 
     /** Shows one of the levels of detail of the model, if it has several. */
@@ -351,18 +404,24 @@ export class Stage {
 
     private limitZoom(): void {
         const { radius } = this.bounds.getBoundingSphere(new Sphere());
-        this.controls.minDistance = radius * 0.4;
-        this.controls.maxDistance = this.heldPixels === undefined ? radius * 24 : Infinity;
+        const farthest = this.heldPixels === undefined ? radius * 24 : Infinity;
+        this.rig.limit(Math.min(radius * 0.4, nearest), farthest);
+        this.rig.reach = radius * 12;
     }
 
-    /** Requests a frame; several requests at once make one frame. */
+    /** Requests a frame because something has changed; several requests at once make one frame. */
     draw(): void {
+        this.changed = true;
+        this.requestFrame();
+    }
+
+    private requestFrame(): void {
         if (this.frameRequested) return;
         this.frameRequested = true;
         requestAnimationFrame(() => this.frame());
     }
 
-    /** Resolves after the next drawn frame. */
+    /** Resolves after the next drawn frame, with depth of field once the picture is complete. */
     drawn(): Promise<void> {
         return new Promise((resolve) => {
             this.waiters.push(resolve);
@@ -372,14 +431,29 @@ export class Stage {
 
     private frame(): void {
         this.frameRequested = false;
-        this.controls.update();
-        this.wind.update(performance.now() / 1000);
-        this.renderer.render(this.scene, this.camera);
+        this.rig.update();
+        const sways = this.swaying_ && this.model !== undefined && !!modelWind(this.model);
+        const complete = this.render();
         this.onFrame();
+        if (!complete && !sways) return this.requestFrame();
         const done = this.waiters;
         this.waiters = [];
         for (const resolve of done) resolve();
-        if (this.swaying_ && this.model && modelWind(this.model)) this.draw();
+        if (sways) this.draw();
+    }
+
+    /** Draws the picture, or a better one of what has not changed; returns true if it is the final
+     *  one. */
+    private render(): boolean {
+        const { changed, fNumber, lens, rig, scene } = this;
+        this.changed = false;
+        if (changed) this.wind.update(performance.now() / 1000);
+        if (fNumber === undefined) {
+            this.renderer.render(scene, rig.camera);
+            return true;
+        }
+        if (changed) lens.restart();
+        return lens.advance(scene, rig.camera, fNumber, rig.distance);
     }
 
     private resize(): void {
@@ -387,18 +461,22 @@ export class Stage {
         if (width === 0 || height === 0) return;
         this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
         this.renderer.setSize(width, height, false);
-        this.camera.aspect = width / height;
-        this.camera.updateProjectionMatrix();
-        if (this.model && this.outOfPicture()) this.fit(undefined, true);
+        this.rig.camera.aspect = width / height;
+        this.rig.camera.updateProjectionMatrix();
+        if (!this.model) return;
+        const { looked } = this;
+        const closer = looked && isCloseUp(looked) && this.lookCloser(looked, true);
+        if (!closer && this.outOfPicture()) this.fit(undefined, true);
         // Drawn at once: a resized canvas is empty until the next frame.
-        if (this.model) this.frame();
+        this.changed = true;
+        this.frame();
     }
 
     private fitGround(): void {
         const ball = this.bounds.getBoundingSphere(new Sphere());
-        aimSun(this.sun, ball);
+        this.light.aim(ball);
         this.ground.visible = true;
-        this.ground.fit(ball.radius, this.ruling);
+        this.ground.fit(ball.radius, this.spacing);
         this.contact.visible = true;
         this.contact.position.y = ball.radius * 0.0015;
         this.castContact();
@@ -416,78 +494,10 @@ export class Stage {
     private outOfPicture(): boolean {
         if (this.heldPixels !== undefined) return true;
         const ball = this.framed.getBoundingSphere(new Sphere());
-        const seen = ball.radius / (this.camera.position.distanceTo(ball.center) || 1);
-        const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-        const off = this.controls.target.distanceTo(ball.center) / ball.radius;
+        const { camera, target } = this.rig;
+        const seen = ball.radius / (camera.position.distanceTo(ball.center) || 1);
+        const half = Math.tan((camera.fov * Math.PI) / 360) * Math.min(1, camera.aspect);
+        const off = target.distanceTo(ball.center) / ball.radius;
         return seen > half * 1.05 || seen < half * 0.3 || off > 1.5;
-    }
-
-    private moveTo(target: Vector3, position: Vector3, atOnce: boolean): void {
-        const movement = ++this.movement;
-        const clip = (): void => {
-            const distance = this.camera.position.distanceTo(this.controls.target);
-            this.camera.near = distance / 60;
-            this.camera.far = distance * 30;
-            this.camera.updateProjectionMatrix();
-        };
-        if (atOnce) {
-            this.controls.enableDamping = false;
-            this.controls.target.copy(target);
-            this.camera.position.copy(position);
-            clip();
-            this.controls.update();
-            this.controls.enableDamping = !this.style.reducedMotion;
-            this.draw();
-            return;
-        }
-        const fromTarget = this.controls.target.clone();
-        const from = new Spherical().setFromVector3(this.camera.position.clone().sub(fromTarget));
-        const to = new Spherical().setFromVector3(position.clone().sub(target));
-        let turn = to.theta - from.theta;
-        turn -= Math.round(turn / (2 * Math.PI)) * 2 * Math.PI;
-        const start = performance.now();
-        const step = (now: number): void => {
-            if (movement !== this.movement) return;
-            const t = Math.min(Math.max((now - start) / 380, 0), 1);
-            const s = t * t * (3 - 2 * t);
-            const at = new Spherical(
-                from.radius * (to.radius / from.radius) ** s,
-                from.phi + (to.phi - from.phi) * s,
-                from.theta + turn * s,
-            );
-            this.controls.target.lerpVectors(fromTarget, target, s);
-            this.camera.position.setFromSpherical(at).add(this.controls.target);
-            clip();
-            this.draw();
-            if (t < 1) requestAnimationFrame(step);
-        };
-        requestAnimationFrame(step);
-    }
-
-    private onKey(event: KeyboardEvent): void {
-        if (event.ctrlKey || event.metaKey || event.altKey) return;
-        const turn = new Spherical().setFromVector3(
-            this.camera.position.clone().sub(this.controls.target),
-        );
-        const step = Math.PI / 24;
-        if (event.key === "ArrowLeft") turn.theta -= step;
-        else if (event.key === "ArrowRight") turn.theta += step;
-        else if (event.key === "ArrowUp") turn.phi -= step;
-        else if (event.key === "ArrowDown") turn.phi += step;
-        else if (event.key === "+" || event.key === "=") turn.radius *= 0.9;
-        else if (event.key === "-") turn.radius /= 0.9;
-        else if (event.key === "Home") {
-            event.preventDefault();
-            return this.fit("three-quarter");
-        } else return;
-        event.preventDefault();
-        this.movement += 1;
-        turn.phi = Math.min(Math.max(turn.phi, 0.01), Math.PI - 0.01);
-        turn.radius = Math.min(
-            Math.max(turn.radius, this.controls.minDistance),
-            this.controls.maxDistance,
-        );
-        this.camera.position.setFromSpherical(turn).add(this.controls.target);
-        this.draw();
     }
 }

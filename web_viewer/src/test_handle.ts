@@ -1,14 +1,14 @@
 // `window.sporeprint`: what tests and tools read from the page, and do with it.
-import type { ViewName } from "./camera";
+import type { LookName } from "./camera";
 import type { Counts } from "./model";
 import type { ColonyCount } from "./name_plate";
 import type { Page } from "./page";
-import type { Size, Stage } from "./stage";
+import type { Frame, Size, Stage } from "./stage";
 
 interface TestHandle {
     /** Resolves when the shown model equals the controls and a frame of it was drawn. */
     ready(): Promise<void>;
-    view(name: ViewName): void;
+    view(name: LookName): void;
     /** Counts of the last frame and of the graphics card's memory; `frames` is the number of frames
      *  drawn so far. */
     readonly renderer: {
@@ -19,6 +19,8 @@ interface TestHandle {
         textures: number;
     };
     readonly counts: Counts;
+    /** What the picture shows at the depth of the camera's target, and the target, metres. */
+    readonly frame: Frame;
     /** Triangles of the level of detail that is shown, and pixels of its longest side. */
     readonly shown: { triangles: number; pixels: number };
     /** The age that an animation clip shows, undefined if it shows none, and whether it plays. */
@@ -49,6 +51,9 @@ export function installTestHandle(page: Page, stage: Stage): void {
         },
         get counts() {
             return page.counts;
+        },
+        get frame() {
+            return stage.frameShown;
         },
         get shown() {
             const { width, height, depth } = stage.size;

@@ -1,25 +1,37 @@
-// The toolbar over the stage: views, levels of detail, wireframe, wind and dusk.
-import type { ViewName } from "./camera";
+// The toolbar over the stage: views, close-ups, levels of detail, wireframe and wind.
+import type { LookName } from "./camera";
+import { closeUpNames, type CloseUpName } from "./close_ups";
 import { byId, make } from "./dom";
 import { valueAt } from "./schema";
 import type { Settings } from "./settings";
 import type { Stage } from "./stage";
 
 export interface ToolbarEvents {
-    view: (name: ViewName) => void;
+    view: (name: LookName) => void;
     /** A variant of the material was chosen; "" for the requested one. */
     variant: (name: string) => void;
     /** Another level of detail was chosen; the settings have it already. */
     lodChosen: () => void;
 }
 
-const viewLabels: Record<ViewName, string> = {
+const viewLabels: Record<LookName, string> = {
     "three-quarter": "¾",
     front: "Front",
     side: "Side",
     top: "Top",
     below: "Below",
     roots: "Roots",
+    margin: "Margin",
+    underside: "Underside",
+    base: "Base",
+};
+
+const viewTitles: Partial<Record<LookName, string>> = {
+    "three-quarter": "The whole, from the front and the side",
+    roots: "Roots and stems from above, without what stands on them",
+    margin: "Close-up of the margin",
+    underside: "Close-up of the underside",
+    base: "Close-up of the base",
 };
 
 /** Levels of detail have a button each if there are at most this many. */
@@ -35,17 +47,8 @@ function makeToggle(id: string, act: (on: boolean) => void): void {
     });
 }
 
-/** Switches the colours of page and stage between day and dusk. */
-function setDusk(stage: Stage, dusk: boolean): void {
-    document.documentElement.classList.toggle("dusk", dusk);
-    const style = getComputedStyle(document.documentElement);
-    stage.setColours(
-        style.getPropertyValue("--rule").trim(),
-        style.getPropertyValue("--shade").trim(),
-    );
-}
-
 export class Toolbar {
+    private readonly views = new Map<LookName, HTMLButtonElement>();
     private readonly lods = new Map<number, HTMLButtonElement>();
 
     constructor(
@@ -57,16 +60,27 @@ export class Toolbar {
         this.makeLods();
         makeToggle("wireframe", (on) => (stage.wireframe = on));
         makeToggle("breeze", (on) => (stage.swaying = on));
-        makeToggle("night", (on) => setDusk(stage, on));
-        setDusk(stage, false);
         const select = byId<HTMLSelectElement>("variant");
         select.addEventListener("change", () => this.events.variant(select.value));
     }
 
-    /** Marks the view of the roots, the only one that hides a part of the model. */
-    markView(name: ViewName): void {
-        const button = byId("views").querySelector('[data-view="roots"]');
-        button?.setAttribute("aria-pressed", String(name === "roots"));
+    /** Views and close-ups with a button, in its order; keys count them from 1. */
+    get looks(): readonly LookName[] {
+        return [...this.settings.product.views, ...closeUpNames];
+    }
+
+    /** Marks the view that the camera has; undefined for one of the user's own. */
+    markView(name: LookName | undefined): void {
+        for (const [look, button] of this.views)
+            button.setAttribute("aria-pressed", String(look === name));
+    }
+
+    /** Offers a close-up, or says why there is none. */
+    offerCloseUp(name: CloseUpName, missing: string | undefined): void {
+        const button = this.views.get(name);
+        if (!button) return;
+        button.disabled = missing !== undefined;
+        button.title = missing ?? this.titleOf(name);
     }
 
     /** Offers the variants of the material of a model, the requested one first. */
@@ -94,16 +108,24 @@ export class Toolbar {
     }
 
     private makeViews(): void {
-        for (const name of this.settings.product.views) {
-            const title =
-                name === "roots"
-                    ? "Roots and stems from above, without what stands on them"
-                    : `Look from: ${name}`;
-            const attributes = { type: "button", title, "data-view": name };
+        for (const [index, name] of this.looks.entries()) {
+            const attributes = {
+                type: "button",
+                title: this.titleOf(name),
+                "data-view": name,
+                "aria-pressed": "false",
+                "aria-keyshortcuts": index + 1,
+            };
             const button = make("button", attributes, viewLabels[name]);
             button.addEventListener("click", () => this.events.view(name));
-            byId("views").append(button);
+            byId(closeUpNames.some((one) => one === name) ? "close-ups" : "views").append(button);
+            this.views.set(name, button);
         }
+    }
+
+    private titleOf(name: LookName): string {
+        const key = this.looks.indexOf(name) + 1;
+        return `${viewTitles[name] ?? `Look from: ${name}`} (key ${key} on the picture)`;
     }
 
     private makeLods(): void {

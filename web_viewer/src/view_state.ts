@@ -1,5 +1,9 @@
-// What the page shows beside the model's settings: the open panel and the debug views. The page's
-// URL holds it, as everything else; no request of the service contains it.
+// What the page shows beside the model's settings: the open panel, the debug views, and how the
+// model is photographed. The page's URL holds it, as everything else; no request of the service
+// contains it.
+import { lookNames, type LookName } from "./camera";
+import { fNumbers, type FNumber } from "./depth_of_field";
+import { lightNames, type LightName } from "./lights";
 
 /** Weights of wind that can be shown as colours. */
 export const windChannels = ["all", "bend", "flutter", "phase", "branch"] as const;
@@ -20,13 +24,28 @@ export interface ViewState {
     fov: number;
     /** Height of the screen for which levels are judged, pixels. */
     screen: number;
+    light: LightName;
+    /** The named view that the camera has; undefined once it was turned by hand. */
+    look: LookName | undefined;
+    /** Stop of the lens; undefined without depth of field. */
+    aperture: FNumber | undefined;
 }
 
 export const screenHeights = [720, 1080, 1440, 2160] as const;
 export const fovRange = { min: 10, max: 150 } as const;
 
 /** Names of the state in the page's query. */
-export const viewNames = ["panel", "solids", "weights", "level", "fov", "screen"] as const;
+export const viewNames = [
+    "panel",
+    "solids",
+    "weights",
+    "level",
+    "fov",
+    "screen",
+    "light",
+    "view",
+    "aperture",
+] as const;
 
 export const initialView: ViewState = {
     panel: "shape",
@@ -35,6 +54,9 @@ export const initialView: ViewState = {
     level: undefined,
     fov: 60,
     screen: 1080,
+    light: "daylight",
+    look: undefined,
+    aperture: undefined,
 };
 
 function oneOf<T>(known: readonly T[], value: unknown): T | undefined {
@@ -56,6 +78,9 @@ export function readView(query: URLSearchParams): ViewState {
         fov:
             fov !== undefined && fov >= fovRange.min && fov <= fovRange.max ? fov : initialView.fov,
         screen: oneOf<number>(screenHeights, number("screen")) ?? initialView.screen,
+        light: oneOf(lightNames, query.get("light")) ?? initialView.light,
+        look: oneOf(lookNames, query.get("view")),
+        aperture: oneOf<number>(fNumbers, number("aperture")) as FNumber | undefined,
     };
 }
 
@@ -69,5 +94,37 @@ export function viewQuery(view: ViewState): string {
     if (view.level !== undefined) parts.push(`level=${view.level}`);
     if (view.fov !== initialView.fov) parts.push(`fov=${view.fov}`);
     if (view.screen !== initialView.screen) parts.push(`screen=${view.screen}`);
+    if (view.light !== initialView.light) parts.push(`light=${view.light}`);
+    if (view.look) parts.push(`view=${view.look}`);
+    if (view.aperture !== undefined) parts.push(`aperture=${view.aperture}`);
     return parts.map((part) => `&${part}`).join("");
+}
+
+/** The state of the views, shared by all that show or change a part of it. */
+export class ViewStore {
+    private state: ViewState = initialView;
+    private readonly listeners: ((view: ViewState) => void)[] = [];
+
+    /** `changed` is called when the user has changed something, but not for what was read. */
+    constructor(private readonly changed: (view: ViewState) => void) {}
+
+    get current(): ViewState {
+        return this.state;
+    }
+
+    /** Calls `listener` whenever the state is another one. */
+    listen(listener: (view: ViewState) => void): void {
+        this.listeners.push(listener);
+    }
+
+    change(changes: Partial<ViewState>): void {
+        this.read({ ...this.state, ...changes });
+        this.changed(this.state);
+    }
+
+    /** Shows the state of the page's URL. */
+    read(view: ViewState): void {
+        this.state = view;
+        for (const listener of this.listeners) listener(view);
+    }
 }
