@@ -66,6 +66,9 @@ enum Purpose : std::uint32_t {
     painted_damage = 110,  ///< painted, ten kinds
     scale_outlines = 120,  ///< painted
     damage_grain = 121,
+    skin_grain = 122,   ///< texture of cap and stem
+    hue = 123,          ///< the individual's own hue, and its drift across the cap
+    zone_widths = 124,  ///< of a zoned cap
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -132,6 +135,9 @@ enum Purpose : std::uint32_t {
         case flesh_paint:
         case scale_outlines:
         case damage_grain:
+        case skin_grain:
+        case hue:
+        case zone_widths:
             return 1;
     }
     return 0;

@@ -23,6 +23,10 @@ class StageCheck {
             add("/surface/cap/ramp", "every stage has as many colours as the first");
         if (first.surface.hymenium.pattern != model.surface.hymenium.pattern)
             add("/surface/hymenium/pattern", "every stage has the pattern of the first");
+        if (first.surface.cap.skin.kind != model.surface.cap.skin.kind)
+            add("/surface/cap/skin/kind", "every stage has the kind of the first");
+        if (first.surface.stem.skin.kind != model.surface.stem.skin.kind)
+            add("/surface/stem/skin/kind", "every stage has the kind of the first");
         check_places(first.warts, model.warts, "/warts");
         check_places(first.scales, model.scales, "/scales");
         check_places(first.volva, model.volva, "/volva");

@@ -10,6 +10,61 @@
 
 namespace sporeprint {
 
+/// The structure of a skin at the scale of a millimetre and below.
+enum class SkinKind { smooth, fibrillose, silky, velvety, granular, viscid, matt };
+
+constexpr const char* name(SkinKind kind) {
+    switch (kind) {
+        case SkinKind::smooth:
+            return "smooth";
+        case SkinKind::fibrillose:
+            return "fibrillose";
+        case SkinKind::silky:
+            return "silky";
+        case SkinKind::velvety:
+            return "velvety";
+        case SkinKind::granular:
+            return "granular";
+        case SkinKind::viscid:
+            return "viscid";
+        case SkinKind::matt:
+            return "matt";
+    }
+    return nullptr;
+}
+
+/// Texture of a skin: painted at two to six texels, whatever the resolution, in colour, relief and
+/// roughness.
+struct SkinTexture {
+    SkinKind kind = SkinKind::smooth;
+    double strength = 0.5;
+    double bloom = 0.0;
+    double grain = 0.001;
+
+    static constexpr void fields(auto visit) {
+        using S = SkinTexture;
+        visit(&S::kind,
+              Info{.name = "kind",
+                   .doc = "What the skin is made of: fibres that run outwards or down the stem, "
+                          "silk, upright hairs, granules, a viscid film, or a dry matt layer."});
+        visit(&S::strength, Info{.name = "strength",
+                                 .min = 0,
+                                 .max = 1,
+                                 .doc = "How distinct that structure is; 0 is a flat skin."});
+        visit(
+            &S::bloom,
+            Info{.name = "bloom", .min = 0, .max = 1, .doc = "Pale powder on the skin (pruina)."});
+        visit(&S::grain,
+              Info{.name = "grain",
+                   .unit = "m",
+                   .min = 0.0001,
+                   .max = 0.01,
+                   .doc = "Size of the largest features at full strength; larger ones are fainter "
+                          "in proportion to their size."});
+    }
+    bool operator==(const SkinTexture&) const = default;
+};
+
 /// The upper face: colours run from the apex (first) to the margin (last).
 struct CapSurface {
     std::vector<Colour> ramp = {{200, 160, 120}, {180, 140, 100}};
@@ -20,11 +75,14 @@ struct CapSurface {
     int zone_count = 6;
     double patches = 0.0;
     double patch_size = 0.01;
+    double patch_softness = 0.2;
     Colour patch_colour = {230, 210, 180};
     double streaks = 0.0;
     double veins = 0.0;
     double striae = 0.0;
     double bumps = 0.2;
+    SkinTexture skin;
+    double colour_drift = 0.3;
     double roughness = 0.6;
     Colour hollow = {120, 90, 60};
     double hollow_tint = 0.0;
@@ -60,6 +118,11 @@ struct CapSurface {
                                    .min = 0.0005,
                                    .max = 0.1,
                                    .doc = "Size of a patch."});
+        visit(&C::patch_softness,
+              Info{.name = "patch_softness",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "0: patches have an edge, as torn veils do; 1: they are stains."});
         visit(&C::patch_colour, Info{.name = "patch_colour", .doc = "Colour of the patches."});
         visit(&C::streaks, Info{.name = "streaks",
                                 .min = 0,
@@ -76,6 +139,13 @@ struct CapSurface {
                    .doc = "Share of the radius that is grooved from the margin inwards."});
         visit(&C::bumps,
               Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
+        visit(&C::skin, Info{.name = "skin", .doc = "Texture of the skin, finer than bumps."});
+        visit(&C::colour_drift,
+              Info{.name = "colour_drift",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How much the hue varies from one side of the face to the other, and "
+                          "between individuals."});
         visit(&C::roughness,
               Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
         visit(&C::hollow, Info{.name = "hollow",
@@ -139,6 +209,7 @@ struct StemSurface {
     double net = 0.0;
     Colour net_colour = {242, 234, 219};
     double bumps = 0.2;
+    SkinTexture skin;
     double roughness = 0.75;
     Upload image;
 
@@ -165,6 +236,7 @@ struct StemSurface {
         visit(&S::net_colour, Info{.name = "net_colour", .doc = "Colour of the net."});
         visit(&S::bumps,
               Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
+        visit(&S::skin, Info{.name = "skin", .doc = "Texture of the skin, finer than bumps."});
         visit(&S::roughness,
               Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
         visit(

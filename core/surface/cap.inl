@@ -7,8 +7,9 @@
 #define SPOREPRINT_CORE_SURFACE_CAP_INL
 #endif
 
+#include "core/surface/gill_layout.inl"
 #include "core/surface/relief.inl"
-#include "core/surface/texel.inl"
+#include "core/surface/skin.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
@@ -42,7 +43,8 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
         const VF f = set(plan.patch_frequency);
         fields[cap_patch] = noise3(px * f, p.height * f, pz * f, plan.seed[4]);
     }
-    constexpr unsigned round_fields = (1U << cap_streak) | (1U << cap_fibre) | (1U << cap_vein);
+    constexpr unsigned round_fields =
+        (1U << cap_streak) | (1U << cap_fibre) | (1U << cap_vein) | (1U << cap_zone);
     if ((plan.fields & round_fields) == 0) return;
     const VF turn = turn_of(p.cosine, p.sine);
     const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
@@ -60,6 +62,17 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
         const VF a = periodic_noise2(turn * set(n) + fields[cap_uneven] * set(0.6F),
                                      p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
         fields[cap_fibre] = a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F);
+    }
+    if ((plan.fields & (1U << cap_zone)) != 0) {
+        // Zones differ in width, and each is wider on one side than on the other.
+        const VF even =
+            (p.rho + fields[cap_uneven] * set(0.035F) + fields[cap_mottle] * set(0.012F)) *
+            set(plan.zone_count);
+        const VF broad = periodic_noise2(turn * set(5.0F), even * set(0.45F), 5, plan.zone_seed[0]);
+        const VF fine = periodic_noise2(turn * set(17.0F), even * set(0.8F), 17, plan.zone_seed[1]);
+        // Near the pole a turn is short, so the first zones stay nearly round.
+        const VF apart = unit(even * set(0.4F));
+        fields[cap_zone] = even + (broad * set(0.75F) + fine * set(0.2F)) * apart;
     }
     if ((plan.fields & (1U << cap_vein)) != 0) {
         // A net in the plane of the disc, elongated along the meridians by a warp, so that most
@@ -93,15 +106,32 @@ HWY_INLINE VF cap_bumps(const CapPlan& plan, const DiscPoint& p, const VF* field
     return fine;
 }
 
-HWY_INLINE void add_cap_zones(const CapPlan& plan, const DiscPoint& p, const VF* fields,
+/// Position of a texel among the zones of a cap.
+struct CapZone {
+    VF band;   ///< 1 in the middle of a dark zone, 0 between two
+    VF shift;  ///< change of the place on the ramp: no zone has quite the colour of the next
+};
+
+HWY_INLINE CapZone cap_zone_of(const CapPlan& plan, const VF* fields) {
+    const VF t = fields[cap_zone];
+    const VF number = hn::Floor(t);
+    const VF chance = signed_hash(number, plan.zone_seed[2]);
+    const VF even = set(0.5F) - set(0.5F) * wave(t);
+    const VF narrow = even * even;
+    CapZone zone;
+    zone.band = mix(even, narrow, set(0.5F) + set(0.5F) * chance) *
+                (set(0.8F) + set(0.2F) * signed_hash(number, plan.zone_seed[2] + 1U)) *
+                shown(set(1.0F / (plan.zone_count * plan.disc.per_texel)), 4.0F);
+    zone.shift = even * chance * set(0.20F * plan.zones);
+    return zone;
+}
+
+HWY_INLINE void add_cap_zones(const CapPlan& plan, const CapZone& zone, const VF* fields,
                               Layers& texel) {
-    const VF t = (p.rho + fields[cap_uneven] * set(0.035F) + fields[cap_mottle] * set(0.012F)) *
-                 set(plan.zone_count);
-    const VF band = set(0.5F) - set(0.5F) * wave(t);
-    const VF soft = band * shown(set(1.0F / (plan.zone_count * plan.disc.per_texel)), 4.0F);
-    texel.shade = texel.shade * (set(1.0F) - set(0.42F * plan.zones) * soft *
-                                                 (set(0.8F) + set(0.4F) * fields[cap_middle]));
-    texel.height = texel.height - soft * set(0.02F * plan.zones / plan.zone_count);
+    // A zone breaks up into blotches.
+    const VF band = zone.band * unit(set(0.92F) + set(0.8F) * fields[cap_middle]);
+    texel.shade = texel.shade * (set(1.0F) - set(0.66F * plan.zones) * band);
+    texel.height = texel.height - zone.band * set(0.02F * plan.zones / plan.zone_count);
 }
 
 /// Adds fibres along the meridians. round_texels: circumference in texels
@@ -117,20 +147,28 @@ HWY_INLINE void add_cap_fibrils(const CapPlan& plan, const DiscPoint& p, const V
     texel.roughness = texel.roughness + fibre * set(0.04F * plan.fibrils);
 }
 
-/// Adds the grooves at the margin that show the gills through a thin cap.
+/// Adds the lines at the margin where gills show through a thin cap. They are soft, because light
+/// spreads in the flesh, and each ends at its own radius.
 HWY_INLINE void add_cap_striae(const CapPlan& plan, const DiscPoint& p, VF middle, VF turn,
                                VF round_texels, Layers& texel) {
     const VF one = set(1.0F);
-    const float n = static_cast<float>(plan.striae_count);
+    const VF x =
+        blades_at(plan.layout, turn, wander_at(plan.layout, turn, one)).x * set(plan.striae_scale);
+    const float lines = static_cast<float>(plan.layout.blades) * plan.striae_scale;
+    const VF nearest = hn::Floor(x + set(0.5F));
+    const VF chance = signed_hash(wrapped(nearest, lines), plan.seed[10]);
     const VF reach = (p.rho - set(1.0F - plan.striae)) *
                          set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) +
-                     middle * set(0.16F);
-    const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
-    const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + middle * set(0.14F));
-    const VF deep = groove * strength;
-    texel.height = texel.height - deep * p.radius * set(0.17F * 6.2831853F / n);
-    texel.shade = texel.shade * (one - set(0.26F) * deep);
-    texel.occlusion = texel.occlusion * (one - set(0.20F) * deep);
+                     middle * set(0.10F) + chance * set(0.16F);
+    const VF strength =
+        smooth(reach, 0.0F, 1.1F) * shown(round_texels * set(1.0F / lines), 4.0F) *
+        (set(0.8F) + set(0.2F) * signed_hash(wrapped(nearest, lines), plan.seed[11]));
+    const VF line = set(0.5F) + set(0.5F) * wave(x);
+    texel.height = texel.height - (line - set(0.5F)) * strength * p.radius *
+                                      set(plan.striae_relief * 6.2831853F / lines);
+    texel.shade =
+        texel.shade * (one + set(plan.striae_shade) * strength * (set(0.35F) - line * line));
+    texel.occlusion = texel.occlusion * (one - set(plan.striae_relief) * line * strength);
 }
 
 HWY_INLINE void add_cap_veins(const CapPlan& plan, const DiscPoint& p, const VF* fields,
@@ -144,39 +182,71 @@ HWY_INLINE void add_cap_veins(const CapPlan& plan, const DiscPoint& p, const VF*
     texel.shade = texel.shade * (one + set(0.10F) * strength - set(0.40F) * cup);
 }
 
+HWY_INLINE bool uses_turn(const CapPlan& plan) {
+    return plan.fibrils > 0.0F || plan.striae > 0.0F || plan.skin.fibres;
+}
+
 /// Returns a texel of the cap. fields: values of cap_fields() at this texel
 HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
     const VF uneven = fields[cap_uneven];
     const VF mottle = fields[cap_mottle];
     const VF middle = fields[cap_middle];
+    const VF turn = uses_turn(plan) ? turn_of(p.cosine, p.sine) : set(0.0F);
+    Grain grain;
+    grain.begin();
+    if (plan.skin.fibres)
+        grain = meridian_grain(plan.skin, p.rho, turn + middle * set(0.006F) + one);
+    else if (plan.skin.shows)
+        grain = plane_grain(plan.skin, p.x, p.y);
+    // The lattices lie in the plane of the disc, which is wider than the cap.
+    grain.rise = grain.rise * hn::Min(p.widening, one);
     Layers texel;
     texel.height = set(0.0F);
     const VF fine = cap_bumps(plan, p, fields, texel.height);
-    const VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F));
+    // One side of a cap stands in more sun and rain than the other.
+    const VF side = p.x * set(plan.drift_x) + p.y * set(plan.drift_y) + uneven * set(0.3F);
+    VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F)) +
+               side * set(plan.ramp_drift);
+    CapZone zone{set(0.0F), set(0.0F)};
+    if (plan.zones > 0.0F) {
+        zone = cap_zone_of(plan, fields);
+        along = along + zone.shift;
+    }
     texel.colour = ramp_colour(plan, unit(along));
+    texel.colour.r = texel.colour.r * (set(plan.tint.r) + side * set(plan.drift.r));
+    texel.colour.g = texel.colour.g * (set(plan.tint.g) + side * set(plan.drift.g));
+    texel.colour.b = texel.colour.b * (set(plan.tint.b) + side * set(plan.drift.b));
     texel.shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
                   set(0.10F) * fine;
     texel.occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
     texel.roughness = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
     if (plan.patches > 0.0F) {
-        const VF patch = smooth(fields[cap_patch] + set(0.14F) * middle + set(0.05F) * fine,
-                                plan.patch_threshold - 0.09F, 5.5F) *
-                         set(plan.patch_weight);
+        // The border breaks up into points, and the patch is thinner in places.
+        const VF patch =
+            smooth(fields[cap_patch] + set(0.14F) * middle + set(0.05F) * fine +
+                       set(plan.patch_grain) * grain.tone,
+                   plan.patch_threshold - 0.5F / plan.patch_slope, plan.patch_slope) *
+            unit(set(0.94F) + set(0.25F) * mottle + set(plan.patch_grain) * grain.tone) *
+            set(plan.patch_weight);
         texel.colour = mix(texel.colour, rgb(plan.patch_colour), patch);
         texel.roughness = texel.roughness + patch * set(0.05F);
         texel.height = texel.height + patch * set(0.0012F);
     }
-    if (plan.zones > 0.0F) add_cap_zones(plan, p, fields, texel);
+    if (plan.zones > 0.0F) add_cap_zones(plan, zone, fields, texel);
     if (plan.streaks > 0.0F) {
         texel.shade = texel.shade * (one - set(0.55F * plan.streaks) * fields[cap_streak]);
         texel.height = texel.height - fields[cap_streak] * set(0.0015F * plan.streaks);
     }
     if (plan.fibrils > 0.0F || plan.striae > 0.0F) {
-        const VF turn = turn_of(p.cosine, p.sine);
         const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
         if (plan.fibrils > 0.0F) add_cap_fibrils(plan, p, fields, turn, round_texels, texel);
         if (plan.striae > 0.0F) add_cap_striae(plan, p, middle, turn, round_texels, texel);
+    }
+    if (plan.skin.shows) {
+        // Dark zones are velvety, pale ones nearly smooth.
+        const VF cover = mix(one, set(0.55F) + set(0.75F) * zone.band, set(plan.zones));
+        add_skin(plan.skin, grain, uneven, cover, texel);
     }
     if (plan.veins > 0.0F) add_cap_veins(plan, p, fields, texel);
     Texel out;

@@ -13,6 +13,18 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
+/// Returns a hash of a whole number, as a number in -1..1.
+HWY_INLINE VF signed_hash(VF whole, std::uint32_t seed) {
+    const VU h = whole_bits(whole) * word(prime_x);
+    return upper_part(hash(hn::Xor(hash(h), word(seed))));
+}
+
+/// Returns x modulo `period`, for -period <= x < 2 period.
+HWY_INLINE VF wrapped(VF x, float period) {
+    x = x + hn::IfThenElseZero(x < set(0.0F), set(period));
+    return x - hn::IfThenElseZero(x >= set(period), set(period));
+}
+
 /// Position of a texel among the blades that reach the stem.
 struct GillPosition {
     VF x;     ///< blade k is at x = k

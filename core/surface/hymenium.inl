@@ -20,18 +20,6 @@ struct Slot {
     VF visible;  ///< 0 where slots are smaller than texels
 };
 
-/// Returns a hash of a whole number, as a number in -1..1.
-HWY_INLINE VF signed_hash(VF whole, std::uint32_t seed) {
-    const VU h = whole_bits(whole) * word(prime_x);
-    return upper_part(hash(hn::Xor(hash(h), word(seed))));
-}
-
-/// Returns x modulo `period`, for -period <= x < 2 period.
-HWY_INLINE VF wrapped(VF x, float period) {
-    x = x + hn::IfThenElseZero(x < set(0.0F), set(period));
-    return x - hn::IfThenElseZero(x >= set(period), set(period));
-}
-
 /// Returns the slot among gills: `blades` that reach the stem, and tiers of shorter ones, each of
 /// which halves the gaps from its own radius outwards.
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {

@@ -46,6 +46,102 @@ ReliefPlan relief_plan(const PaintParams& params) {
     return plan;
 }
 
+// What a kind of skin looks like at full strength: elongation of its cells, deviations of
+// brightness, hue, slope and roughness, the skew of its brightness, and the unevenness of its film.
+struct SkinLook {
+    double elongation, tone, hue, slope, gloss, skew, film;
+};
+
+SkinLook look_of(SkinKind kind) {
+    switch (kind) {
+        case SkinKind::smooth:
+            return {1.0, 0.16, 0.06, 0.06, 0.06, 0.0, 0.03};
+        case SkinKind::fibrillose:
+            return {8.0, 0.36, 0.06, 0.14, 0.08, -0.2, 0.0};
+        case SkinKind::silky:
+            return {14.0, 0.24, 0.04, 0.07, 0.16, 0.0, 0.03};
+        case SkinKind::velvety:
+            return {1.0, 0.26, 0.06, 0.08, 0.06, 0.4, 0.0};
+        case SkinKind::granular:
+            return {1.0, 0.32, 0.05, 0.20, 0.06, 0.8, 0.0};
+        case SkinKind::viscid:
+            return {1.0, 0.16, 0.10, 0.03, 0.10, 0.0, 0.12};
+        case SkinKind::matt:
+            return {1.0, 0.24, 0.06, 0.10, 0.08, -0.5, 0.0};
+    }
+    return {};
+}
+
+// Lengths of a chart in metres: of its unit, and of a texel along x and y.
+struct SkinScale {
+    double unit, texel_x, texel_y;
+    bool is_round = false;  ///< x runs once round, and its unit is once round
+};
+
+// Octaves are at fixed lengths, powers of two of a metre. Those finer than 1.5 texels of the
+// image are left out, and the finest of the others fades in up to 2.5 texels.
+SkinPlan skin_plan(const SkinTexture& skin, const SkinScale& scale, double smoothed,
+                   std::uint32_t seed) {
+    SkinPlan plan;
+    const SkinLook look = look_of(skin.kind);
+    const double strength = skin.strength;
+    const double stretch = look.elongation;
+    plan.shows = strength > 0.0 || skin.bloom > 0.0;
+    plan.fibres = plan.shows && look.elongation > 1.0;
+    plan.fibre_seed = seed;
+    plan.elongation = single(stretch);
+    plan.tone = single(look.tone * strength);
+    plan.hue = single(look.hue * strength);
+    plan.gloss = single(look.gloss * strength);
+    plan.skew = single(look.skew);
+    plan.film = single(look.film * strength);
+    plan.bloom = single(skin.bloom);
+    const double texel = scale.is_round ? scale.texel_x : std::max(scale.texel_x, scale.texel_y);
+    double cell = 1.0;
+    std::uint32_t octave_number = 0;
+    for (; octave_number < 24U && 0.5 * cell >= 1.5 * texel; ++octave_number) cell *= 0.5;
+    constexpr std::array<double, 3> spectrum = {0.85, 0.9, 0.6};
+    double variance = 0.0;
+    for (std::size_t i = 0; i < 3; ++i, cell *= 2.0, --octave_number) {
+        const double seen = std::clamp((cell / texel - 1.5) / 1.0, 0.0, 1.0);
+        const double weight = seen * spectrum[i] * std::min(1.0, skin.grain / cell);
+        plan.seed[i] = seed + octave_number * 0x9E3779B9U;
+        plan.weight[i] = single(weight);
+        plan.rise[i] = single(weight * look.slope * strength * smoothed * cell / scale.unit);
+        variance += 0.1 * weight * weight;
+        if (scale.is_round) {
+            const double round = std::max(3.0, std::floor(scale.unit / cell + 0.5));
+            plan.cells[i] = single(round);
+            plan.cells_along[i] =
+                single(scale.unit / std::max(stretch * scale.unit / round, 2.2 * scale.texel_y));
+        } else {
+            plan.cells[i] = single(scale.unit / cell);
+        }
+    }
+    plan.tone_variance = single(variance);
+    return plan;
+}
+
+// How the hue of an individual differs from its species': two deviates, and the direction on the
+// cap's disc in which it becomes warmer, in turns.
+struct Hue {
+    double warm, green, turn;
+};
+
+Hue hue_of(std::uint32_t seed) {
+    Random stream(seed, purposes::hue);
+    const double warm = std::clamp(stream.normal(), -2.0, 2.0);
+    const double green = std::clamp(stream.normal(), -2.0, 2.0);
+    const double turn = stream.uniform();
+    return {warm, green, turn};
+}
+
+// Returns factors on a colour, whose mean over all seeds is 1.
+Light tint_of(const Hue& hue, double amount) {
+    return {single(1.0 + 0.11 * amount * hue.warm), single(1.0 + 0.06 * amount * hue.green),
+            single(1.0 - 0.19 * amount * hue.warm)};
+}
+
 SlotAssignment slot_assignment_of(const PaintParams& params) {
     return slot_assignment(params.gill_layout, params.surface.hymenium.pattern,
                            params.hymenium.blades, params.hymenium.tiers);
@@ -155,6 +251,17 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.fibril_count = cap.fibril_count;
     plan.zones = single(cap.zones);
     plan.zone_count = single(cap.zone_count);
+    plan.zone_seed = seeds<3>(params.seed, purposes::zone_widths);
+    const Hue hue = hue_of(params.seed);
+    plan.tint = tint_of(hue, cap.colour_drift);
+    const SineCosine side = sine_cosine(2.0 * pi * hue.turn);
+    plan.drift_x = single(side.cosine);
+    plan.drift_y = single(side.sine);
+    plan.drift = {single(0.14 * cap.colour_drift), 0.0F, single(-0.22 * cap.colour_drift)};
+    plan.ramp_drift = single(0.22 * cap.colour_drift);
+    const double texel = arc * static_cast<double>(plan.disc.per_texel);
+    plan.skin = skin_plan(cap.skin, {arc, texel, texel}, 1.0 - 0.7 * params.slime,
+                          seeds<1>(params.seed, purposes::skin_grain)[0]);
     plan.patches = single(cap.patches);
     plan.patch_frequency = single(
         std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
@@ -162,19 +269,36 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     // distribution.
     const double share = std::clamp(cap.patches, 0.01, 0.99);
     plan.patch_threshold = single(-0.20 * logarithm(share / (1.0 - share)));
+    plan.patch_slope = single(1.0 / (0.15 + 0.5 * cap.patch_softness));
+    plan.patch_grain = single(0.08 + 0.24 * cap.patch_softness);
     plan.patch_weight = single(std::min(1.0, cap.patches * 8.0));
     plan.patch_colour = light_of(cap.patch_colour);
     plan.streaks = single(cap.streaks);
     plan.veins = single(cap.veins);
     plan.vein_rows = 7.0F;
     plan.striae = single(cap.striae);
-    // Through a thin cap few gills are visible individually, with the shorter ones between; many
-    // merge.
-    plan.striae_count = std::min(2 * params.hymenium.blades, 54 + params.hymenium.blades / 2);
+    if (is_bladed(params.surface.hymenium.pattern)) {
+        plan.layout = gill_layout_plan(params, slot_assignment_of(params));
+        // Widely spaced gills show with the shorter ones between them.
+        const bool is_sparse = plan.layout.blades <= 40 && params.hymenium.tiers > 0;
+        plan.striae_scale = is_sparse ? 2.0F : 1.0F;
+    } else {
+        plan.layout.blades = params.hymenium.blades;
+    }
+    // Water in the flesh makes it translucent, and fills the furrows.
+    const double wet = params.weathering.wetness;
+    // Long lines are real furrows; short ones at a glossy margin are hardly more than colour, and
+    // would break its highlight up into stitches.
+    const double furrowed =
+        std::min(1.0, 2.0 * cap.striae) * std::clamp(2.5 * (cap.roughness - 0.2), 0.0, 1.0);
+    plan.striae_relief =
+        single((0.05 + 0.14 * furrowed) * (1.0 - 0.6 * wet) * (1.0 - 0.7 * params.slime));
+    plan.striae_shade = single(0.26 + 0.25 * wet);
     if (plan.streaks > 0.0F) plan.fields |= 1U << cap_streak;
     if (plan.fibrils > 0.0F) plan.fields |= 1U << cap_fibre;
     if (plan.patches > 0.0F) plan.fields |= 1U << cap_patch;
     if (plan.veins > 0.0F) plan.fields |= 1U << cap_vein;
+    if (plan.zones > 0.0F) plan.fields |= 1U << cap_zone;
     return plan;
 }
 
@@ -264,6 +388,10 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.fields = 3U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << stem_bump;
     if (!stem.image.empty()) return plan;
+    plan.tint = tint_of(hue_of(params.seed), 0.6 * params.surface.cap.colour_drift);
+    plan.skin =
+        skin_plan(stem.skin, {circumference, circumference * round, circumference * along, true},
+                  1.0, seeds<1>(params.seed, purposes::skin_grain)[0] + 0x51ED270BU);
     plan.base_stain = single(stem.base_stain);
     plan.fibrils = single(stem.fibrils);
     const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};

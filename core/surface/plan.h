@@ -21,14 +21,15 @@ enum CapField {
     cap_streak,
     cap_fibre,
     cap_patch,
-    cap_vein
+    cap_vein,
+    cap_zone
 };
 enum HymeniumField { hymenium_uneven, hymenium_middle, hymenium_bump };
 enum StemField { stem_broad, stem_middle, stem_bump, stem_fibre, stem_furrow };
 enum VeilField { veil_thread, veil_cloud };
 enum BladeField { blade_cloud, blade_uneven };
 enum FleshField { flesh_fibre, flesh_cloud };
-inline constexpr int most_fields = 8;
+inline constexpr int most_fields = 9;
 
 /// A colour in linear light.
 struct Light {
@@ -90,32 +91,24 @@ struct ReliefPlan {
     [[nodiscard]] bool any() const { return folds > 0.0F || pits > 0.0F || tiers > 0.0F; }
 };
 
-struct CapPlan {
-    ReliefPlan relief;
-    DiscPlan disc;
-    std::array<std::uint32_t, 12> seed{};
-    Light first;
-    std::array<Light, most_ramp_steps> step{};
-    int steps = 0;
-    float lightness = 1.0F;
-    float ramp_noise = 0.0F;
-    float fibrils = 0.0F;
-    int fibril_count = 8;
-    float zones = 0.0F;
-    float zone_count = 1.0F;
-    float patches = 0.0F;
-    float patch_frequency = 1.0F;  ///< per arc
-    float patch_threshold = 0.0F;
-    float patch_weight = 0.0F;
-    Light patch_colour;
-    float streaks = 0.0F;
-    float veins = 0.0F;
-    float vein_rows = 8.0F;  ///< cells of the net from pole to rim
-    float striae = 0.0F;
-    int striae_count = 60;
-    std::array<float, 3> bumps{};  ///< by octave, already limited to the texel resolution
-    float roughness = 0.6F;
-    unsigned fields = 0;  ///< bit of each CapField that is used
+/// Texture of a skin in three octaves of noise at fixed lengths, of which the finest is 1.5 to 3
+/// texels. An octave is seeded by its length, so that images of all sizes show the same skin.
+struct SkinPlan {
+    std::array<std::uint32_t, 3> seed{};
+    std::uint32_t fibre_seed = 0;  ///< of fibres on a disc, whose levels have their own lattices
+    bool shows = false;
+    bool fibres = false;  ///< elongated along the part, instead of isotropic
+    float elongation = 1.0F;
+    /// Cells per disc radius, or round the stem; finest octave first.
+    std::array<float, 3> cells{};
+    std::array<float, 3> cells_along{};  ///< per circumference of the stem
+    std::array<float, 3> weight{};       ///< 0 where an octave is finer than texels
+    std::array<float, 3> rise{};         ///< weight in the height, in the lengths of the chart
+    float tone = 0.0F, hue = 0.0F, gloss = 0.0F;
+    float skew = 0.0F;  ///< 1: pale points stand out, -1: dark hollows
+    float tone_variance = 0.0F;
+    float film = 0.0F;   ///< unevenness of a viscid film at larger scale
+    float bloom = 0.0F;  ///< pale powder
 };
 
 /// One wave of the lateral displacement of blades.
@@ -131,6 +124,44 @@ struct GillLayoutPlan {
     float slots = 0.0F, occupied = 0.0F, stride = 1.0F;
     std::array<WavePlan, 4> wander{};
     float bend = 0.0F;  ///< amplitude of the displacement, in turns
+};
+
+struct CapPlan {
+    ReliefPlan relief;
+    DiscPlan disc;
+    std::array<std::uint32_t, 12> seed{};
+    Light first;
+    std::array<Light, most_ramp_steps> step{};
+    int steps = 0;
+    float lightness = 1.0F;
+    float ramp_noise = 0.0F;
+    float fibrils = 0.0F;
+    int fibril_count = 8;
+    float zones = 0.0F;
+    float zone_count = 1.0F;
+    std::array<std::uint32_t, 3> zone_seed{};
+    float patches = 0.0F;
+    float patch_frequency = 1.0F;  ///< per arc
+    float patch_threshold = 0.0F;
+    float patch_weight = 0.0F;
+    float patch_slope = 5.5F;   ///< 1 / width of a border, in the noise
+    float patch_grain = 0.05F;  ///< how much the skin's grain frays the border
+    Light patch_colour;
+    float streaks = 0.0F;
+    float veins = 0.0F;
+    float vein_rows = 8.0F;  ///< cells of the net from pole to rim
+    float striae = 0.0F;
+    GillLayoutPlan layout;      ///< of the gills below, which the striae follow
+    float striae_scale = 1.0F;  ///< lines per gill
+    float striae_relief = 0.0F, striae_shade = 0.0F;
+    SkinPlan skin;
+    Light tint = {1.0F, 1.0F, 1.0F};       ///< the individual's own hue
+    Light drift;                           ///< change of the hue across the disc, per radius
+    float drift_x = 0.0F, drift_y = 0.0F;  ///< direction of that change, unit
+    float ramp_drift = 0.0F;               ///< shift of the ramp in that direction
+    std::array<float, 3> bumps{};          ///< by octave, already limited to the texel resolution
+    float roughness = 0.6F;
+    unsigned fields = 0;  ///< bit of each CapField that is used
 };
 
 struct HymeniumPlan {
@@ -186,6 +217,8 @@ struct StemPlan {
     float gill_shown = 0.0F;      ///< 0 when gaps are smaller than texels
     Light gill_colour, gill_edge, gill_depth;
     float roughness = 0.75F;
+    SkinPlan skin;
+    Light tint = {1.0F, 1.0F, 1.0F};  ///< the individual's own hue
     unsigned fields = 0;
 };
 

@@ -646,7 +646,8 @@ void paint_disc_row(const PaintPlan& plan, int y, Row& row, RowBuffers& buffers)
         hn::Store(p.cosine, f, row.cosine + x);
         hn::Store(p.sine, f, row.sine + x);
         hn::Store(p.widening, f, row.widening + x);
-        hn::Store(fields[1], f, row.uneven + x);
+        // Broad, because light and rain reach whole sides of a cap.
+        hn::Store(fields[0] * set(0.7F) + fields[1] * set(0.2F), f, row.uneven + x);
     }
     if (Kernel::part == Part::cap && y >= 0 && y < frame.height) {
         HWY_ALIGN float place[8];

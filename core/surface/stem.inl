@@ -8,6 +8,7 @@
 #endif
 
 #include "core/surface/gill_layout.inl"
+#include "core/surface/skin.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
@@ -47,15 +48,19 @@ HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields)
     }
 }
 
-/// Adds a snakeskin pattern: the cuticle has torn into zigzag belts.
+/// Adds a snakeskin pattern: the felt has torn into zigzag belts, whose edges are frayed. Their
+/// teeth differ in width and length.
 HWY_INLINE void add_stem_bands(const StemPlan& plan, VF along, VF turn, const VF* fields, VF fine,
-                               Layers& texel) {
-    const VF zigzag =
-        hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) - set(0.5F);
-    const VF phase = along * set(8.0F) + zigzag * set(0.42F) + fields[stem_broad] * set(0.35F) +
-                     fields[stem_middle] * set(0.22F);
-    const VF belt =
-        smooth(wave(phase) + fine * set(0.3F) + fields[stem_middle] * set(0.35F), -0.15F, 2.2F);
+                               VF grain, Layers& texel) {
+    const VF broad = fields[stem_broad];
+    const VF middle = fields[stem_middle];
+    const VF tooth = turn * set(13.0F) + broad * set(0.5F) + middle * set(0.25F);
+    const VF zigzag = hn::Abs(tooth - hn::Floor(tooth) - set(0.5F)) * set(2.0F) - set(0.5F);
+    const VF phase = along * set(11.0F) + zigzag * (set(0.36F) + middle * set(0.30F)) +
+                     broad * set(0.45F) + middle * set(0.30F);
+    const VF belt = smooth(wave(phase) + fine * set(0.3F) + middle * set(0.45F) + grain * set(0.5F),
+                           -0.20F, 1.5F) *
+                    unit(set(0.9F) + broad * set(0.4F) + grain * set(0.2F));
     texel.colour = mix(texel.colour, rgb(plan.band_colour), belt * set(plan.bands));
     texel.height = texel.height + belt * set(0.003F * plan.bands);
 }
@@ -125,6 +130,10 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     const VF zero = set(0.0F);
     const VF length = along * set(plan.aspect);
     const VF middle = fields[stem_middle];
+    Grain grain;
+    grain.begin();
+    if (plan.skin.shows)
+        grain = stem_grain(plan.skin, turn + fields[stem_broad] * set(0.004F), length);
     VF fine = zero;
     Layers texel;
     texel.height = zero;
@@ -143,22 +152,27 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     }
     texel.colour = mix(rgb(plan.base), rgb(plan.top),
                        smooth(along + fields[stem_broad] * set(0.07F), 0.0F, 1.0F));
+    texel.colour.r = texel.colour.r * set(plan.tint.r);
+    texel.colour.g = texel.colour.g * set(plan.tint.g);
+    texel.colour.b = texel.colour.b * set(plan.tint.b);
     texel.shade = one + middle * set(0.05F) + fine * set(0.06F);
     texel.occlusion = one + hn::Min(fine, zero) * set(0.25F);
+    texel.roughness = set(plan.roughness) + fine * set(0.04F) + middle * set(0.03F);
     if (plan.fibrils > 0.0F) {
         const VF fibre = fields[stem_fibre];
         texel.height = texel.height + fields[stem_furrow] * set(plan.fibrils);
         texel.shade = texel.shade * (one + fibre * set(0.30F * plan.fibrils));
         texel.occlusion = texel.occlusion + hn::Min(fibre, zero) * set(0.25F * plan.fibrils);
     }
-    if (plan.bands > 0.0F) add_stem_bands(plan, along, turn, fields, fine, texel);
+    if (plan.bands > 0.0F) add_stem_bands(plan, along, turn, fields, fine, grain.tone, texel);
     if (plan.net > 0.0F) add_stem_net(plan, along, turn, fields, texel);
     if (plan.gills > 0.0F) add_stem_gills(plan, along, turn, texel);
     if (plan.base_stain > 0.0F) add_stem_stain(plan, along, fields, fine, texel);
+    if (plan.skin.shows) add_skin(plan.skin, grain, fields[stem_broad], one, texel);
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)));
     out.height = texel.height;
-    out.roughness = set(plan.roughness) + fine * set(0.04F) + middle * set(0.03F);
+    out.roughness = texel.roughness;
     out.occlusion = texel.occlusion;
     return out;
 }

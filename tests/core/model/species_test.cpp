@@ -62,6 +62,10 @@ TEST(Species, InvalidTemplatesAreRefusedWithTheirPath) {
            [](Species& s) { s.stages[1].model.surface.cap.ramp.pop_back(); });
     expect("/stages/1/model/surface/hymenium/pattern", "pattern of the first",
            [](Species& s) { s.stages[1].model.surface.hymenium.pattern = HymeniumPattern::pores; });
+    expect("/stages/1/model/surface/cap/skin/kind", "kind of the first",
+           [](Species& s) { s.stages[1].model.surface.cap.skin.kind = SkinKind::granular; });
+    expect("/stages/1/model/surface/stem/skin/kind", "kind of the first",
+           [](Species& s) { s.stages[1].model.surface.stem.skin.kind = SkinKind::granular; });
     expect("/stages/1/model/warts", "those of the first",
            [](Species& s) { s.stages[1].model.warts.count = 7; });
     expect("/stages/1/model/scales", "those of the first",

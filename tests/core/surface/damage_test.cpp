@@ -124,13 +124,16 @@ TEST(PaintedDamage, ACrackDoesNotChangeTheHollowsBesideIt) {
         both.weathering.*effect = alone.weathering.*effect = amount;
         const RawImages worn = paint_raw(alone), plain = paint_raw(clean()),
                         mixed = paint_raw(both);
-        const auto same = [](const RawImages& a, const RawImages& b, int x, int y, int around) {
+        const auto same = [](const RawImages& a, const RawImages& b, int x, int y, int around,
+                             int levels) {
+            const auto apart = [&](const Bytes& one, const Bytes& two, std::size_t at) {
+                return std::abs(static_cast<int>(one[at]) - static_cast<int>(two[at])) > levels;
+            };
             for (int j = y - around; j <= y + around; ++j)
                 for (int i = x - around; i <= x + around; ++i) {
                     const std::size_t at = 3U * static_cast<std::size_t>(j * 256 + i);
                     for (std::size_t c = 0; c < 3; ++c)
-                        if (a.rgb[0][at + c] != b.rgb[0][at + c] ||
-                            a.rgb[1][at + c] != b.rgb[1][at + c])
+                        if (apart(a.rgb[0], b.rgb[0], at + c) || apart(a.rgb[1], b.rgb[1], at + c))
                             return false;
                 }
             return true;
@@ -138,9 +141,10 @@ TEST(PaintedDamage, ACrackDoesNotChangeTheHollowsBesideIt) {
         int looked = 0;
         for (int y = 8; y < 120; ++y)
             for (int x = 8; x < 120; ++x) {
-                if (!same(worn, plain, x, y, 2)) continue;
+                if (!same(worn, plain, x, y, 2, 0)) continue;
                 ++looked;
-                EXPECT_TRUE(same(mixed, lumpy, x, y, 0)) << x << ' ' << y;
+                // What rounds to nothing alone may be one level on the slope of a hollow.
+                EXPECT_TRUE(same(mixed, lumpy, x, y, 0, 1)) << x << ' ' << y;
             }
         EXPECT_GT(looked, 1000);
     }

@@ -107,8 +107,8 @@ TEST(Paint, RefusesASideThatIsNoPowerOfTwo) {
 TEST(Paint, WithoutReliefTheNormalsAreFlat) {
     PaintParams params;
     params.side = 256;
-    params.surface.cap.bumps = 0.0;
-    params.surface.stem.bumps = 0.0;
+    params.surface.cap.bumps = params.surface.cap.skin.strength = 0.0;
+    params.surface.stem.bumps = params.surface.stem.skin.strength = 0.0;
     params.surface.stem.fibrils = 0.0;
     const RawImages images = paint_raw(params);
     for (int y = 0; y < 128; ++y)
@@ -266,7 +266,7 @@ TEST(Paint, TheRampRunsFromApexToMargin) {
     PaintParams params;
     params.side = 512;
     params.surface.cap.ramp = {{255, 0, 0}, {0, 0, 255}};
-    params.surface.cap.ramp_noise = 0.0;
+    params.surface.cap.ramp_noise = params.surface.cap.colour_drift = 0.0;
     const RawImages images = paint_raw(params);
     const Texel apex = texel(images, ImageKind::base_color, 128, 128);
     const Texel margin = texel(images, ImageKind::base_color, 247, 128);
