@@ -1,4 +1,4 @@
-// Texture of skins: lines at the margin, zones, and colours of individuals.
+// Texture of skins, lines at the margin, zones, and colours of individuals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "core/surface/paint.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint::surface_skin_test {
+namespace sporeprint::surface_skin_plan_test {
 namespace {
 
 constexpr SkinKind all_kinds[] = {SkinKind::smooth,  SkinKind::fibrillose, SkinKind::silky,
@@ -336,4 +336,4 @@ TEST(Hue, VariesBetweenIndividualsAndOverEachOneModestly) {
 }
 
 }  // namespace
-}  // namespace sporeprint::surface_skin_test
+}  // namespace sporeprint::surface_skin_plan_test
