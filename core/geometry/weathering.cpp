@@ -229,8 +229,9 @@ class Weatherer {
             const double unit = stem ? girth : length;
             const bool pit = kind == DamageSpotKind::pit;
             const double size =
-                std::max(spot.radius * (pit ? scale : 0.5 + 0.5 * scale), 1e-4) * unit;
-            double height = pit ? -0.30 * size : lump_height(spot) * scale * unit;
+                std::max(spot.radius * (pit ? pit_size(scale) : 0.5 + 0.5 * scale), 1e-4) * unit;
+            double height =
+                pit ? -0.30 * size * pit_depth(scale) : lump_height(spot) * scale * unit;
             if (pit) height *= carried_pit(size, length, spot, curve, stem);
             const double along = size * spot.elongation;
             const double r = std::max(curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r, 1e-4);

@@ -33,7 +33,7 @@ Distribution distribution_of(DamageSpotKind kind, CurveName part) {
     switch (kind) {
         case DamageSpotKind::pit:
             if (cap) return {7, 0.10, 0.80, 0.055, 0.15, 1.5};
-            if (stem) return {4, 0.25, 0.85, 0.045, 0.10, 2.0};
+            if (stem) return {4, 0.25, 0.85, 0.03, 0.07, 2.0};
             return {};
         case DamageSpotKind::bruise:
             if (cap) return {7, 0.25, 0.98, 0.07, 0.22, 1.6};

@@ -42,6 +42,11 @@ struct DamageSpot {
 /// sliver on them.
 [[nodiscard]] double begun(double onset, double amount);
 
+/// Returns the size of a pit relative to its full size, and its depth and visibility: a slug rasps
+/// first a patch of the skin, then deeper, so that no pit is a dot.
+[[nodiscard]] constexpr double pit_size(double scale) { return 0.5 + 0.5 * scale; }
+[[nodiscard]] constexpr double pit_depth(double scale) { return smooth_step(0.0, 0.35, scale); }
+
 /// Returns the height of a lump at full size, in the unit of its radius; every third is a hollow.
 [[nodiscard]] constexpr double lump_height(const DamageSpot& lump) {
     return (lump.id % 3 == 2 ? -0.8 : 1.0) * 0.16 * lump.radius;

@@ -131,10 +131,11 @@ class DamagePlanner {
             const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
             const ChartSpace::Place at = chart.place(spot.sigma, spot.theta);
-            // Bruises and lumps fade in; all other kinds grow from a point.
-            const bool gentle = kind == DamageKind::bruise || kind == DamageKind::lump;
-            const double radius =
-                std::max(spot.radius * (gentle ? 0.5 + 0.5 * scale : scale), 1e-4) * chart.unit();
+            // Bruises, pits and lumps fade in; drops grow from a point.
+            const double size = kind == DamageKind::drop  ? scale
+                                : kind == DamageKind::pit ? pit_size(scale)
+                                                          : 0.5 + 0.5 * scale;
+            const double radius = std::max(spot.radius * size, 1e-4) * chart.unit();
             const double length = radius * spot.elongation, width = radius / at.widening;
             SpotPlan painted;
             painted.kind = kind;
@@ -157,7 +158,7 @@ class DamagePlanner {
             switch (kind) {
                 case DamageKind::pit:
                     painted.height = single(0.30 * radius);
-                    painted.strength = single(shown);
+                    painted.strength = single(pit_depth(scale) * shown);
                     break;
                 case DamageKind::bruise:
                     painted.strength = single(scale);

@@ -82,9 +82,10 @@ struct DamagePlan {
 };
 
 /// Returns the squared distance from the centre of an oval, in half axes, beyond which it changes
-/// nothing. Clouds of bruises reach furthest.
+/// nothing. Clouds of bruises and ragged pits reach furthest.
 constexpr float oval_window(DamageKind kind) {
-    return kind == DamageKind::lump ? 1.0F : kind == DamageKind::bruise ? 2.25F : 1.6F;
+    if (kind == DamageKind::lump) return 1.0F;
+    return kind == DamageKind::bruise || kind == DamageKind::pit ? 2.25F : 1.6F;
 }
 
 /// Returns the distance from the middle of a line, in half widths, beyond which it changes nothing.

@@ -197,16 +197,21 @@ HWY_INLINE void add_pit(const SpotPlan& spot, VF x, VF y, const DamageTarget& at
     if (all_at_least(oval.square, set(oval_window(DamageKind::pit)))) return;
     const VF one = set(1.0F), zero = set(0.0F), shown = set(spot.strength);
     const VF ragged = noise2(oval.a * set(2.7F), oval.b * set(2.7F), spot.seed);
-    const VF far = hn::Sqrt(oval.square) + ragged * set(0.10F);
+    const VF far = hn::Sqrt(oval.square) + ragged * set(0.20F);
     const VF open = (one - smooth(far, 0.90F, 9.0F)) * shown;
     at.raise(damage_open, open);
     // The pit is flat at the bottom and steep at the sides, with fine scallops left by the radula.
-    const VF rasp =
-        wave(oval.a * set(4.5F) + hn::Abs(wave(oval.b * set(1.6F))) * set(0.5F)) * set(0.11F);
+    const VF rasp = wave(oval.a * set(4.5F) + hn::Abs(wave(oval.b * set(1.6F))) * set(0.5F) +
+                         ragged * set(1.4F)) *
+                    set(0.11F);
     const VF floor = one - smooth(far, 0.55F, 2.6F);
     at.raise(damage_sunk, hn::Max(floor + rasp * open, zero) * set(spot.height) * shown);
     const VF wall = hn::Max(one - hn::Abs(far - set(0.86F)) * set(5.0F), zero);
-    at.raise(damage_shade, (wall * set(0.42F) + hn::Max(rasp, zero) * set(1.5F) * open) * shown);
+    at.raise(damage_shade, (wall * set(0.26F) + hn::Max(rasp, zero) * set(1.5F) * open) * shown);
+    // Flesh that has been open for some hours is discoloured, most at its rim.
+    const VF rim = hn::Max(one - hn::Abs(far - set(0.86F)) * set(4.2F), zero);
+    at.raise(damage_stain,
+             (hn::Max(rim * set(0.45F), open * set(0.25F)) + ragged * set(0.12F) * open) * shown);
 }
 
 /// Two octaves of noise with cached lattice cells, evaluated texel after texel of a row.
@@ -269,7 +274,8 @@ HWY_INLINE MarginBorder margin_border(const SpotPlan& spot) {
         case DamageKind::split:
             return {1.0F - stray, 1.0F + spot.rim + stray};
         case DamageKind::bite:
-            return {1.0F + 0.25F * spot.rim - stray, 1.0F + 1.41F * spot.rim + stray};
+            // The flesh is discoloured at both sides of the border.
+            return {1.0F - 0.21F * spot.rim - stray, 1.0F + 1.41F * spot.rim + stray};
         default: {
             // Waves of the border, and the roll of cuticle and its shade on both sides.
             const float waves = 0.08F + 0.06F + 0.035F + 0.4F * stray + slack;
@@ -319,6 +325,9 @@ HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
         const VF open = one - smooth(far + teeth, 1.0F + 0.6F * spot.rim, 2.2F / spot.rim);
         at.raise(damage_open, open * shown);
         at.raise(damage_sunk, open * set(0.35F * spot.height) * shown);
+        const VF rim = hn::Max(
+            one - hn::Abs(far + teeth - set(1.0F + 0.6F * spot.rim)) * set(2.2F / spot.rim), zero);
+        at.raise(damage_stain, rim * set(0.7F) * shown);
         return;
     }
     // Same border as tongue_ragged() in core/individual/damage.h.
@@ -348,7 +357,8 @@ HWY_INLINE void show_damage(const DamagePlan& plan, const DamageTexel& damage, V
     const VF shade = unit(damage.plane[damage_shade]);
     const VF water = damage.plane[damage_water];
     // Each effect is skipped when it is 0 in the whole vector, which keeps texels bit-identical.
-    if (!all_at_least(zero, stain)) {
+    const bool stained = !all_at_least(zero, stain);
+    if (stained) {
         // A bruise lets the pattern below show through.
         const VF light =
             texel.colour.r * set(0.3F) + texel.colour.g * set(0.6F) + texel.colour.b * set(0.1F);
@@ -360,8 +370,9 @@ HWY_INLINE void show_damage(const DamagePlan& plan, const DamageTexel& damage, V
     if (!all_at_least(zero, open)) {
         const VF fibre = noise2(x * set(61.0F), y * set(61.0F), plan.seed, noise.fine);
         const VF cloud = noise2(x * set(13.0F), y * set(13.0F), plan.seed + 1U, noise.coarse);
-        const Rgb flesh =
+        Rgb flesh =
             shaded(rgb(plan.flesh), one + fibre * set(0.14F) + cloud * set(0.10F) - set(0.04F));
+        if (stained) flesh = mix(flesh, rgb(plan.bruise), stain * set(0.75F));
         texel.colour = mix(texel.colour, flesh, open);
         texel.roughness = mix(texel.roughness, set(0.88F), open);
         texel.height = texel.height + fibre * open * set(0.0016F);
