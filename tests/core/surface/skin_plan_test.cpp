@@ -282,8 +282,9 @@ TEST(Zones, DifferInWidthAlongARadiusAndRoundTheAxis) {
         for (std::size_t i = 4; i + 4 < values.size(); ++i) {
             bool is_lowest = true;
             for (std::size_t k = i - 4; k <= i + 4; ++k) is_lowest &= values[i] <= values[k];
-            if (is_lowest && (found.empty() || i / 220.0 - found.back() > 0.02))
-                found.push_back(static_cast<double>(i) / 220.0);
+            const double radius = static_cast<double>(i) / 220.0;
+            if (is_lowest && (found.empty() || radius - found.back() > 0.02))
+                found.push_back(radius);
         }
         return found;
     };
