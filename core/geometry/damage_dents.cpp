@@ -50,7 +50,7 @@ double Dents::lumps(const SubCurve& curve, const std::vector<DamageSpot>& damage
     double height = 0.0;
     for (const DamageSpot& spot : damage_spots) {
         const double scale = grown(spot.onset, bumps_);
-        const double size = std::max(spot.radius * (0.5 + 0.5 * scale), 1e-4) * unit;
+        const double size = std::max(spot.radius * faded_in_size(scale), 1e-4) * unit;
         const double a = (sigma - spot.sigma) * length / (size * spot.elongation);
         if (scale <= 0.0 || a < -1.0 || a > 1.0) continue;
         const double r = std::max(curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r, 1e-4);

@@ -228,8 +228,7 @@ class Weatherer {
             if (scale <= 0.0) continue;
             const double unit = stem ? girth : length;
             const bool pit = kind == DamageSpotKind::pit;
-            const double size =
-                std::max(spot.radius * (pit ? pit_size(scale) : 0.5 + 0.5 * scale), 1e-4) * unit;
+            const double size = std::max(spot.radius * faded_in_size(scale), 1e-4) * unit;
             double height =
                 pit ? -0.30 * size * pit_depth(scale) : lump_height(spot) * scale * unit;
             if (pit) height *= carried_pit(size, length, spot, curve, stem);

@@ -42,9 +42,12 @@ struct DamageSpot {
 /// sliver on them.
 [[nodiscard]] double begun(double onset, double amount);
 
-/// Returns the size of a pit relative to its full size, and its depth and visibility: a slug rasps
-/// first a patch of the skin, then deeper, so that no pit is a dot.
-[[nodiscard]] constexpr double pit_size(double scale) { return 0.5 + 0.5 * scale; }
+/// Returns the size of a bruise, a pit or a lump relative to its full size: they fade in, and do not
+/// grow from a point as drops do.
+[[nodiscard]] constexpr double faded_in_size(double scale) { return 0.5 + 0.5 * scale; }
+
+/// Returns the depth and visibility of a pit: a slug rasps first a patch of the skin, then deeper,
+/// so that no pit is a dot.
 [[nodiscard]] constexpr double pit_depth(double scale) { return smooth_step(0.0, 0.35, scale); }
 
 /// Returns the height of a lump at full size, in the unit of its radius; every third is a hollow.

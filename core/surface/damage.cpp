@@ -131,10 +131,7 @@ class DamagePlanner {
             const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
             const ChartSpace::Place at = chart.place(spot.sigma, spot.theta);
-            // Bruises, pits and lumps fade in; drops grow from a point.
-            const double size = kind == DamageKind::drop  ? scale
-                                : kind == DamageKind::pit ? pit_size(scale)
-                                                          : 0.5 + 0.5 * scale;
+            const double size = kind == DamageKind::drop ? scale : faded_in_size(scale);
             const double radius = std::max(spot.radius * size, 1e-4) * chart.unit();
             const double length = radius * spot.elongation, width = radius / at.widening;
             SpotPlan painted;

@@ -65,11 +65,11 @@ TEST(Damage, GrowContinuouslyFromZeroToFullSize) {
 TEST(Damage, PitsBeginAsShallowPatches) {
     EXPECT_EQ(pit_depth(0.0), 0.0);
     EXPECT_EQ(pit_depth(1.0), 1.0);
-    EXPECT_EQ(pit_size(1.0), 1.0);
+    EXPECT_EQ(faded_in_size(1.0), 1.0);
     for (int i = 0; i < 100; ++i) {
         const double scale = i / 100.0;
-        EXPECT_GE(pit_size(scale), 0.5) << "no pit is a dot";
-        EXPECT_LE(pit_size(scale), pit_size(scale + 0.01));
+        EXPECT_GE(faded_in_size(scale), 0.5) << "no pit is a dot";
+        EXPECT_LE(faded_in_size(scale), faded_in_size(scale + 0.01));
         EXPECT_LE(pit_depth(scale), pit_depth(scale + 0.01));
         EXPECT_LT(pit_depth(scale + 0.01) - pit_depth(scale), 0.05);
     }
