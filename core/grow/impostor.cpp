@@ -40,6 +40,7 @@ std::string extras_of(const ImpostorAtlas& atlas) {
         .set("centre_m", std::move(centre))
         .set("radius_m", number(atlas.radius))
         .set("texel_m", number(2.0F * atlas.radius / static_cast<float>(atlas.frame_side)))
+        .set("normal_length", number(atlas.normal_length))
         .set("depth", Value(std::string("metallicRoughnessTexture.r")));
     return dump(Value::object().set("impostor", std::move(impostor)));
 }

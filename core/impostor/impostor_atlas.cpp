@@ -198,7 +198,7 @@ class FramePainter {
     FramePainter(const DrawList& list, const SrgbTable& srgb, ImpostorAtlas& atlas)
         : list_(list), srgb_(srgb), atlas_(atlas) {}
 
-    /// Different frames may be drawn at the same time.
+    /// Draws a frame; different ones may be drawn at the same time.
     void draw(FrameCell cell) {
         FrameView view{axes_of(cell), atlas_.centre, atlas_.radius, 0.0F, atlas_.frame_side};
         view.scale = 0.5F * static_cast<float>(view.side) / view.radius;
@@ -211,15 +211,48 @@ class FramePainter {
                 content = {std::min(content.left, x), std::min(content.top, y),
                            std::max(content.right, x + 1), std::max(content.bottom, y + 1)};
             }
+        const auto index = static_cast<std::size_t>(cell.row * frame_grid + cell.column);
+        add_normals(frame, normals_[index]);
         frame.fill();
         write(frame, cell);
-        atlas_.content[static_cast<std::size_t>(cell.row * frame_grid + cell.column)] = content;
+        atlas_.content[index] = content;
+    }
+
+    /// Returns ImpostorAtlas::normal_length once all frames are drawn.
+    [[nodiscard]] float normal_length() const {
+        NormalSum sum;
+        for (const NormalSum& one : normals_) {
+            sum.length += one.length;
+            sum.coverage += one.coverage;
+        }
+        return sum.coverage > 0.0F ? std::min(sum.length / sum.coverage, 1.0F) : 1.0F;
     }
 
   private:
+    /// Sums over the blocks of a frame, weighted by coverage.
+    struct NormalSum {
+        float length = 0.0F;  ///< of the mean normal of a block
+        float coverage = 0.0F;
+    };
+
     const DrawList& list_;
     const SrgbTable& srgb_;
     ImpostorAtlas& atlas_;
+    std::array<NormalSum, frame_count> normals_;
+
+    /// Adds the lengths of the mean normals of blocks of 2 x 2 texels, which lossy images mix.
+    static void add_normals(const FilledFrame& frame, NormalSum& sum) {
+        for (int y = 0; y + 1 < frame.side(); y += 2)
+            for (int x = 0; x + 1 < frame.side(); x += 2) {
+                glm::vec3 normal(0.0F);
+                for (int k = 0; k < 4; ++k) {
+                    const FilledTexel& texel = frame.texel(x + k % 2, y + k / 2);
+                    normal += texel.normal * texel.coverage;
+                    sum.coverage += texel.coverage;
+                }
+                sum.length += std::sqrt(glm::dot(normal, normal));
+            }
+    }
 
     /// Paints a texel; returns whether it shows something.
     bool paint(const FrameView& view, const Visibility& visibility, int x, int y,
@@ -255,10 +288,9 @@ class FramePainter {
             sum.add(one);
         }
         const float share = 1.0F / static_cast<float>(shown);
-        glm::vec3 normal = normalised(sum.normal, glm::vec3(0.0F, 0.0F, 1.0F));
+        glm::vec3 normal = sum.normal * share;
         // Normal maps, and means over an edge, may face away from the viewer.
-        constexpr float least = 0.05F;
-        if (normal.z < least) normal = normalised({normal.x, normal.y, least}, normal);
+        normal.z = std::max(normal.z, 0.05F * std::sqrt(glm::dot(normal, normal)));
         texel.colour = sum.colour * share;
         texel.normal = normal;
         texel.roughness = sum.roughness * share;
@@ -355,6 +387,7 @@ ImpostorAtlas impostor_atlas(const GlbScene& scene, int frame_side, const Parall
         for (int column = 0; column < frame_grid; ++column)
             tasks.emplace_back([&painter, row, column] { painter.draw({column, row}); });
     parallel(tasks);
+    atlas.normal_length = painter.normal_length();
     continue_frames(atlas);
     return atlas;
 }

@@ -45,6 +45,10 @@ struct ImpostorAtlas {
     /// channels leaves depth smooth.
     Bytes orm;
     std::array<FrameContent, frame_count> content;  ///< [row][column]
+    /// Length of the mean of the unit normals of a few texels, the mean of all frames: 1 for a smooth
+    /// surface, about 0.5 for leaves that are smaller than a texel. The image has unit vectors, so that
+    /// only this says how far the normals of what a texel shows differ.
+    float normal_length = 1.0F;
 
     [[nodiscard]] int side() const { return atlas_side(frame_side); }
     [[nodiscard]] const FrameContent& content_of(FrameCell cell) const {

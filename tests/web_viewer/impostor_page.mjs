@@ -69,29 +69,28 @@ function pixelsOf(renderer, scene, camera) {
     return pixels;
 }
 
+/** Returns how many pixels a picture covers, and the mean colour of what it covers, 0 to 255. */
+function meanOf(pixels) {
+    let covered = 0;
+    const colour = [0, 0, 0];
+    for (let at = 0; at < pixels.length; at += 4) {
+        covered += pixels[at + 3] / 255;
+        for (let k = 0; k < 3; ++k) colour[k] += pixels[at + k];
+    }
+    return { covered, colour: colour.map((sum) => sum / covered) };
+}
+
 /** Returns the area that only one of two pictures covers, in areas of the first, and by how much
  *  the mean colour of what the second covers differs from that of the first, 0 to 255. Single pixels
  *  are not compared: few of a thin crown are covered as a whole. */
 function compared(first, second) {
-    let covered = 0;
-    let alsoCovered = 0;
     let other = 0;
-    const means = [0, 0, 0];
-    const otherMeans = [0, 0, 0];
-    for (let at = 0; at < first.length; at += 4) {
-        const [a, b] = [first[at + 3] / 255, second[at + 3] / 255];
-        covered += a;
-        alsoCovered += b;
-        other += Math.abs(a - b);
-        for (let k = 0; k < 3; ++k) {
-            means[k] += first[at + k];
-            otherMeans[k] += second[at + k];
-        }
-    }
+    for (let at = 3; at < first.length; at += 4) other += Math.abs(first[at] - second[at]) / 255;
+    const [mean, otherMean] = [meanOf(first), meanOf(second)];
     return {
-        outline: other / covered,
-        bias: means.map((one, k) => otherMeans[k] / alsoCovered - one / covered),
-        covered: covered / (side * side),
+        outline: other / mean.covered,
+        bias: mean.colour.map((one, k) => otherMean.colour[k] - one),
+        covered: mean.covered / (side * side),
     };
 }
 

@@ -117,6 +117,8 @@ TEST(Impostor, StatesWhereItsFramesAre) {
         EXPECT_LE(radius, 1.1 * std::sqrt(reach));
         EXPECT_GE(radius, 0.5 * std::sqrt(reach));
         EXPECT_NEAR(at(impostor, "/texel_m").as_number(), 2.0 * radius / 32.0, 1e-6);
+        EXPECT_GT(at(impostor, "/normal_length").as_number(), 0.5);
+        EXPECT_LE(at(impostor, "/normal_length").as_number(), 1.0);
     }
 }
 

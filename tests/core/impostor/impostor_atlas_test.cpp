@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <thread>
 #include <vector>
 
@@ -82,6 +83,31 @@ TEST(ImpostorAtlas, NormalsAndDepthAreThoseOfABall) {
             (2.0F * static_cast<float>(atlas.orm[3 * at]) / 255.0F - 1.0F) * atlas.radius;
         ASSERT_NEAR(depth, expected.z * radius, 0.02F * radius);
     });
+}
+
+TEST(ImpostorAtlas, NormalLengthOfASmoothShapeIsOne) {
+    EXPECT_NEAR(impostor_atlas(scene_of(ball(radius, middle, 128, 64)), side).normal_length, 1.0F,
+                0.02F);
+}
+
+TEST(ImpostorAtlas, NormalLengthOfBallsSmallerThanATexelIsTwoThirds) {
+    // The mean of the normals of a ball over the disc that it covers is 2/3 towards the viewer.
+    Mesh balls;
+    for (int x = 0; x < 12; ++x)
+        for (int y = 0; y < 12; ++y)
+            for (int z = 0; z < 12; ++z) {
+                const glm::vec3 at(x, y, z);
+                const Mesh one = ball(
+                    0.03F, (at + 0.3F * glm::sin(at * 7.0F + glm::vec3(at.y, at.z, at.x))) / 6.0F,
+                    10, 6);
+                const auto first = static_cast<std::uint32_t>(balls.positions.size());
+                balls.positions.insert(balls.positions.end(), one.positions.begin(),
+                                       one.positions.end());
+                balls.normals.insert(balls.normals.end(), one.normals.begin(), one.normals.end());
+                for (const std::uint32_t index : one.indices)
+                    balls.indices.push_back(first + index);
+            }
+    EXPECT_NEAR(impostor_atlas(scene_of(balls), side).normal_length, 2.0F / 3.0F, 0.1F);
 }
 
 TEST(ImpostorAtlas, OneColourIsThatOfAllTexels) {

@@ -8,6 +8,7 @@ import {
     MeshDepthMaterial,
     MeshStandardMaterial,
     RGBADepthPacking,
+    ShaderChunk,
     Sphere,
     Vector3,
     type IUniform,
@@ -30,6 +31,8 @@ export interface ImpostorExtras {
     radius_m: number;
     /** Size of a texel: an impostor looks like the mesh where this is a pixel. */
     texel_m: number;
+    /** Length of the mean of the unit normals of a few texels: how far those of one texel differ. */
+    normal_length: number;
     /** The texture and the channel of the depth: 0.5 is the plane through the centre, 1 `radius_m` nearer. */
     depth: string;
 }
@@ -175,8 +178,25 @@ void readImpostor() {
 
 void main() {`;
 
+// Leaves smaller than a texel face many ways: seen against the light some are lit, and seen with it
+// some are not. The mean of the cosine over them takes the place of that of their mean normal.
+const litFunctions = /* glsl */ `
+uniform float impostorNormalLength;
+float impostorCosine(float meanCosine) {
+    float cosine = impostorNormalLength * meanCosine;
+    float spread = 1.0 - impostorNormalLength * impostorNormalLength;
+    return 0.5 * (cosine + sqrt(cosine * cosine + 0.4 * spread));
+}
+`;
+
 /** The chunks of the shaders of three.js that are replaced. */
 const replacedInLit: Record<string, string> = {
+    "#include <lights_physical_pars_fragment>":
+        litFunctions +
+        ShaderChunk.lights_physical_pars_fragment.replace(
+            "saturate( dot( geometryNormal, directLight.direction ) )",
+            "impostorCosine( dot( geometryNormal, directLight.direction ) )",
+        ),
     "#include <roughnessmap_fragment>":
         "float roughnessFactor = roughness * impostorRoughness;",
     "#include <normal_fragment_maps>":
@@ -279,7 +299,7 @@ export class Impostor {
     }
 
     private patch(material: Material, normals: Texture, surfaces: Texture, isDepth: boolean): void {
-        const { centre_m, radius_m, grid, frame_texels, side_texels } = this.extras;
+        const { centre_m, radius_m, grid, frame_texels, side_texels, normal_length } = this.extras;
         const uniforms: Record<string, IUniform> = {
             impostorNormals: { value: normals },
             impostorSurfaces: { value: surfaces },
@@ -288,6 +308,7 @@ export class Impostor {
             impostorGrid: { value: grid },
             impostorFrame: { value: frame_texels },
             impostorShare: { value: frame_texels / side_texels },
+            impostorNormalLength: { value: normal_length },
         };
         material.customProgramCacheKey = () => `sporeprint impostor ${isDepth}`;
         material.onBeforeCompile = (shader: WebGLProgramParametersWithUniforms) => {

@@ -94,7 +94,7 @@ func as_impostor() -> Mesh:
 	material.set_shader_parameter("base_color", plain.albedo_texture)
 	material.set_shader_parameter("normal_map", plain.normal_texture)
 	material.set_shader_parameter("surface_map", plain.roughness_texture)
-	for name in ["grid", "frame_texels", "side_texels", "cutoff"]:
+	for name in ["grid", "frame_texels", "side_texels", "normal_length", "cutoff"]:
 		material.set_shader_parameter(name, stated[name])
 	material.set_shader_parameter("centre", centre)
 	material.set_shader_parameter("radius", radius)
