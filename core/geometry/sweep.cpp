@@ -142,18 +142,20 @@ Deformer::Deformer(const Individual& individual)
     : base_(individual.stem_base),
       top_(std::max(individual.stem_top, individual.stem_base + 1e-4)),
       axis_(individual.axis, individual.model.deformation, angles_of(individual.effective.seed),
-            base_, top_) {
+            base_, top_),
+      unevenness_(individual) {
     const Model& model = individual.model;
     const Outline& outline = individual.outline;
     const std::uint32_t seed = individual.effective.seed;
-    const double radius = greatest_radius(outline.stem);
+    const double radius = unevenness_.reach_of_stem(greatest_radius(outline.stem));
     const double fold = axis_.greatest_curvature() * radius;
     DeformationOf<Plain> unbent = model.deformation;
     unbent.bend_deg = 0.0;
     if (fold >= 0.98 &&
         Axis(individual.axis, unbent, {}, base_, top_).greatest_curvature() * radius >= 0.98)
         throw Impossible({{"/model/axis", "curves so tightly that the stem, " +
-                                              text(2000.0 * radius) + " mm wide, folds"}});
+                                              text(2000.0 * greatest_radius(outline.stem)) +
+                                              " mm wide, folds"}});
     if (fold >= 0.98)
         throw Impossible(
             {{"/deformation/bend_deg",
@@ -200,6 +202,7 @@ AxisStation Deformer::station(Part part, const OutlineSample& sample) const {
 
 void Deformer::apply(std::span<SurfacePoint> points, const AxisStation& station) const {
     for (const FreeForm& dent : dents_) dent.apply(points);
+    unevenness_.apply(points);
     for (SurfacePoint& point : points) {
         point.meridian = station.direction(point.position, point.meridian);
         point.azimuth = station.direction(point.position, point.azimuth);
@@ -209,6 +212,7 @@ void Deformer::apply(std::span<SurfacePoint> points, const AxisStation& station)
 
 void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) const {
     for (const FreeForm& dent : dents_) dent.apply(places);
+    unevenness_.apply(places);
     for (glm::dvec3& place : places) place = station.point(place);
 }
 

@@ -8,13 +8,15 @@
 #include "core/geometry/axis.h"
 #include "core/geometry/free_form.h"
 #include "core/geometry/rest_surface.h"
+#include "core/geometry/unevenness.h"
 #include "core/individual/individual.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/mesh.h"
 
 namespace sporeprint {
 
-/// Maps points from the rest surface to their final position: imperfections first, then the axis.
+/// Maps points from the rest surface to their final position: imperfections first, then
+/// irregularity, then the axis.
 class Deformer {
   public:
     /// throws  Impossible if the stem would fold: "/deformation/bend_deg", or "/model/axis" if it
@@ -47,6 +49,7 @@ class Deformer {
   private:
     double base_, top_;
     Axis axis_;
+    Unevenness unevenness_;
     std::vector<FreeForm> dents_;
 };
 

@@ -46,6 +46,9 @@ std::vector<AnatomyRule> anatomy_rules(const MushroomParams& requested) {
     const auto carrying = [](S s) { return s.pattern() != Pattern::smooth; };
     const auto nothing_deep = [](S s) { return carries_instead(s, "gills, pores or teeth"); };
     return {
+        {"/deformation/irregularity", is_requested(requested.deformation.irregularity),
+         [](S s) { return !s.is_branched(); }, "has a cap or a single body",
+         [](S s) { return s.label + " branches; its limbs are uneven as its model says"; }},
         {"/hymenium/blades", h.blades.has_value(), bladed, "carries gills or ridges", no_gills},
         {"/hymenium/tiers", h.tiers.has_value(), bladed, "carries gills or ridges", no_gills},
         {"/hymenium/edge_waves", is_requested(h.edge_waves), bladed, "carries gills or ridges",
@@ -184,6 +187,8 @@ void report_effective(MushroomParams& effective, const Model& model,
     set(effective.weathering, model.weathering);
     const auto none = [&](auto has) { return std::none_of(sources.begin(), sources.end(), has); };
     HymeniumOf<Maybe>& hymenium = effective.hymenium;
+    if (none([](const Source& s) { return !s.is_branched(); }))
+        effective.deformation.irregularity.reset();
     if (none([](const Source& s) { return s.has_cells(); })) hymenium.pores_per_mm.reset();
     if (none([](const Source& s) { return s.pattern() == HymeniumPattern::pores; }))
         hymenium.elongation.reset();

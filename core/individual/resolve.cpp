@@ -26,7 +26,8 @@ constexpr double most_natural_fold =
 
 /// The random draws of an individual, -1..1 or 0..1, in a fixed order; new ones are appended.
 struct Draws {
-    double size, stem_length, stem_width, cap_height, bend, lean, imperfection, lightness;
+    double size, stem_length, stem_width, cap_height, bend, lean, imperfection, lightness,
+        irregularity;
 };
 
 Draws draws_of(std::uint32_t seed) {
@@ -40,6 +41,7 @@ Draws draws_of(std::uint32_t seed) {
     d.lean = random.uniform();
     d.imperfection = random.uniform();
     d.lightness = random.symmetric();
+    d.irregularity = random.uniform(0.5, 1.0);
     return d;
 }
 
@@ -442,6 +444,10 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
         std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
     deformation.imperfection = std::min(
         1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
+    if (!sources.front().is_branched())
+        deformation.irregularity =
+            std::min(1.0, deformation.irregularity + draws.irregularity * spread.irregularity *
+                                                         variation * (0.5 + 0.5 * requested.age));
 
     // Overrides apply to every species that can have them.
     for (Source& source : sources) overlay_all(requested, source.now);

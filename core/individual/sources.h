@@ -24,7 +24,7 @@ struct Source {
     std::string id, label;
     double weight = 1.0;
     std::uint64_t hash = 0;
-    Spread spread{0, 0, 0, 0, 0, 0, 0, 0};
+    Spread spread{0, 0, 0, 0, 0, 0, 0, 0, 0};
     std::vector<const Model*> stages;
     std::vector<double> ages;    ///< one per stage
     std::vector<double> growth;  ///< growth weight of each stage at this age; at most two are not 0

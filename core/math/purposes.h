@@ -69,6 +69,7 @@ enum Purpose : std::uint32_t {
     skin_grain = 122,   ///< texture of cap and stem
     hue = 123,          ///< the individual's own hue, and its drift across the cap
     zone_widths = 124,  ///< of a zoned cap
+    unevenness = 130,   ///< of outlines and stems
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -138,6 +139,7 @@ enum Purpose : std::uint32_t {
         case skin_grain:
         case hue:
         case zone_widths:
+        case unevenness:
             return 1;
     }
     return 0;

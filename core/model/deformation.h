@@ -1,4 +1,4 @@
-// Axial and free-form deformation of a shape: bend, twist, lean, taper and imperfection.
+// Deformation of a shape: bend, twist, lean, taper, imperfection and irregularity.
 #pragma once
 
 #include <optional>
@@ -20,6 +20,7 @@ struct DeformationOf {
     M<double> zone_from{};
     M<double> zone_to = preset<M>(1.0);
     M<double> imperfection{};
+    M<double> irregularity{};
 
     static constexpr void fields(auto visit) {
         using D = DeformationOf;
@@ -57,6 +58,15 @@ struct DeformationOf {
                                      .min = 0,
                                      .max = 1,
                                      .doc = "Dents and bulges by local free-form deformation."});
+        visit(
+            &D::irregularity,
+            Info{.name = "irregularity",
+                 .min = 0,
+                 .max = 1,
+                 .doc =
+                     "How far the whole is from a surface of revolution: the outline of the cap "
+                     "deviates from an oval by up to a tenth of its radius, the margin lifts, the "
+                     "stem stands beside the middle, winds and swells."});
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
         const std::optional<double> from = zone_from, to = zone_to;

@@ -126,6 +126,7 @@ struct Spread {
     double lean_deg = 6.0;
     double imperfection = 0.3;
     double lightness = 0.1;
+    double irregularity = 0.0;
 
     static constexpr void fields(auto visit) {
         using S = Spread;
@@ -162,6 +163,13 @@ struct Spread {
                                      .doc = "Added to the template's imperfection, at most."});
         visit(&S::lightness,
               Info{.name = "lightness", .min = 0, .max = 0.5, .doc = "Of the cap's lightness."});
+        visit(
+            &S::irregularity,
+            Info{.name = "irregularity",
+                 .min = 0,
+                 .max = 1,
+                 .doc = "Added to the template's irregularity at the end of life, at most; to that "
+                        "of a button half as much."});
     }
     bool operator==(const Spread&) const = default;
 };

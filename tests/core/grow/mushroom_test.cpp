@@ -89,6 +89,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
                                          "/weathering/peel",
                                          "/weathering/deliquescence",
                                          "/deformation/bend_deg",
+                                         "/deformation/irregularity",
                                          "/deformation/zone_to",
                                          "/frames",
                                          "/targets",

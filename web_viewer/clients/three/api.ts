@@ -267,6 +267,11 @@ export interface components {
                          * @description Dents and bulges by local free-form deformation.
                          */
                         imperfection?: number;
+                        /**
+                         * irregularity
+                         * @description How far the whole is from a surface of revolution: the outline of the cap deviates from an oval by up to a tenth of its radius, the margin lifts, the stem stands beside the middle, winds and swells.
+                         */
+                        irregularity?: number;
                     };
                     /**
                      * ornaments

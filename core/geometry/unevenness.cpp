@@ -1,0 +1,188 @@
+#include "core/geometry/unevenness.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/individual/proportion.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+
+namespace sporeprint {
+
+namespace {
+
+// The largest coefficients.
+constexpr double beside = 0.06;
+constexpr std::array<double, 4> of_sides{0.04, 0.08, 0.055, 0.04};
+constexpr std::array<double, 3> of_lifts{0.03, 0.05, 0.035};
+/// Of the winding, in lengths of the stem and, at most, in radii.
+constexpr std::array<double, 2> of_winding{0.016, 0.008};
+constexpr double most_winding = 0.6;
+constexpr std::array<double, 2> of_swelling{0.1, 0.06};
+/// Least height over which the margin lifts, in greatest radii.
+constexpr double least_rise = 0.35;
+
+/// Returns the product of two complex numbers.
+glm::dvec2 product(const glm::dvec2& a, const glm::dvec2& b) {
+    return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
+}
+
+/// Returns the product of the conjugate of one complex number and another.
+glm::dvec2 turned(const glm::dvec2& a, const glm::dvec2& b) {
+    return {a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x};
+}
+
+/// Returns a random complex number with 0.6 to 1 of a length.
+glm::dvec2 drawn(Random& random, double length) {
+    const double share = random.uniform(0.6, 1.0);
+    const auto [s, c] = sine_cosine(random.uniform(0.0, 2.0 * pi));
+    return {length * share * c, length * share * s};
+}
+
+}  // namespace
+
+Unevenness::Unevenness(const Individual& individual) {
+    const double amount = individual.model.deformation.irregularity;
+    if (!(amount > 0.0) || individual.is_branched()) return;
+    is_uneven_ = true;
+    const Outline& outline = individual.outline;
+    radius_ = 1e-9;
+    double low = individual.stem_base, high = low, cap_low = individual.stem_top;
+    for (const CurveName name : curve_names) {
+        const SubCurve& curve = outline.of(name);
+        if (curve.empty()) continue;
+        radius_ = std::max(radius_, greatest_radius(curve));
+        constexpr int samples = 32;
+        for (int i = 0; i <= samples; ++i) {
+            const double y = curve.at(static_cast<double>(i) / samples).y;
+            low = std::min(low, y);
+            high = std::max(high, y);
+            if (name != CurveName::stem) cap_low = std::min(cap_low, y);
+        }
+    }
+    low_ = low;
+    rise_ = std::max(0.5 * (high - low), least_rise * radius_);
+    base_ = individual.stem_base;
+    length_ = std::max(cap_low - base_, 0.0);
+    const double stem_radius = greatest_radius(outline.stem);
+    for (const SpeciesShare& part : individual.parts) {
+        Random random(individual.effective.seed, purposes::unevenness,
+                      XXH32(part.id.data(), part.id.size(), 0));
+        const double share = amount * part.weight;
+        beside_ += share * drawn(random, beside);
+        for (std::size_t i = 0; i < sides; ++i) sides_[i] += share * drawn(random, of_sides[i]);
+        for (std::size_t i = 0; i < lifts; ++i) lifts_[i] += share * drawn(random, of_lifts[i]);
+        for (std::size_t i = 0; i < waves; ++i) {
+            winding_[i] += share * drawn(random, std::min(of_winding[i] * length_,
+                                                          most_winding * stem_radius));
+            swelling_[i] += share * of_swelling[i] * random.uniform(0.4, 1.0);
+        }
+    }
+    Random random(individual.effective.seed, purposes::unevenness);
+    for (std::size_t i = 0; i < waves; ++i) {
+        winding_from_[i] = random.uniform(0.0, 2.0 * pi);
+        swelling_from_[i] = random.uniform(0.0, 2.0 * pi);
+    }
+}
+
+Unevenness::Level Unevenness::level_at(double y) const {
+    Level level;
+    const double above = (y - low_) / rise_;
+    if (above >= 1.0) {
+        level.lift = 1.0;
+    } else if (above > 0.0) {
+        level.lift = above * above * (3.0 - 2.0 * above);
+        level.lift_by = 6.0 * above * (1.0 - above) / rise_;
+    }
+    const double along = length_ > 0.0 ? (y - base_) / length_ : 0.0;
+    if (along <= 0.0 || along >= 1.0) return level;
+    // Both ends of the stem stay where they are, and as wide.
+    const double middle = along * (1.0 - along);
+    const double window = 16.0 * middle * middle;
+    const double window_by = 32.0 * middle * (1.0 - 2.0 * along);
+    for (std::size_t i = 0; i < waves; ++i) {
+        const double turns = 2.0 * pi * static_cast<double>(i + 1);
+        const auto wind = sine_cosine(turns * along + winding_from_[i]);
+        level.shift += window * wind.cosine * winding_[i];
+        level.shift_by += (window_by * wind.cosine - window * turns * wind.sine) * winding_[i];
+        const auto swell = sine_cosine(turns * along + swelling_from_[i]);
+        level.widening += window * swell.cosine * swelling_[i];
+        level.widening_by +=
+            (window_by * swell.cosine - window * turns * swell.sine) * swelling_[i];
+    }
+    level.shift_by /= length_;
+    level.widening_by /= length_;
+    return level;
+}
+
+template <class Directions>
+void Unevenness::move(glm::dvec3& position, Directions&& each_direction) const {
+    const Level level = level_at(position.y);
+    const glm::dvec2 w(position.x, position.z);
+    const double scale = 1.0 / radius_;
+    const glm::dvec2 q = (w * level.widening + level.shift) * scale;
+    const glm::dvec2 conjugate(q.x, -q.y);
+    // Powers of the conjugate, and of q.
+    std::array<glm::dvec2, sides> far{conjugate};
+    for (std::size_t i = 1; i < sides; ++i) far[i] = product(far[i - 1], conjugate);
+    glm::dvec2 to = q + glm::dot(q, q) * beside_;
+    for (std::size_t i = 0; i < sides; ++i) to += product(sides_[i], far[i]);
+    // Re(b q^n) is the real part of the product with the conjugate of conj(q)^n.
+    double rise = 0.0;
+    for (std::size_t i = 0; i < lifts; ++i) rise += turned(far[i], lifts_[i]).x;
+    each_direction([&](glm::dvec3& direction) {
+        const glm::dvec2 across(direction.x, direction.z);
+        const glm::dvec2 dq =
+            (across * level.widening + direction.y * (w * level.widening_by + level.shift_by)) *
+            scale;
+        const glm::dvec2 dq_conjugate(dq.x, -dq.y);
+        glm::dvec2 turn = sides_[0];
+        glm::dvec2 slope = lifts_[0];
+        for (std::size_t i = 1; i < sides; ++i)
+            turn += static_cast<double>(i + 1) * product(sides_[i], far[i - 1]);
+        for (std::size_t i = 1; i < lifts; ++i)
+            slope += static_cast<double>(i + 1) * turned(far[i - 1], lifts_[i]);
+        const glm::dvec2 moved =
+            radius_ * (dq + 2.0 * glm::dot(q, dq) * beside_ + product(turn, dq_conjugate));
+        direction = {moved.x,
+                     direction.y * (1.0 + radius_ * level.lift_by * rise) +
+                         radius_ * level.lift * product(slope, dq).x,
+                     moved.y};
+    });
+    position = {radius_ * to.x, position.y + radius_ * level.lift * rise, radius_ * to.y};
+}
+
+void Unevenness::apply(std::span<SurfacePoint> points) const {
+    if (!is_uneven_) return;
+    for (SurfacePoint& point : points)
+        move(point.position, [&](auto moved) {
+            moved(point.meridian);
+            moved(point.azimuth);
+        });
+}
+
+void Unevenness::apply(std::span<glm::dvec3> places) const {
+    if (!is_uneven_) return;
+    for (glm::dvec3& place : places) move(place, [](auto) {});
+}
+
+double Unevenness::reach_of_stem(double radius) const {
+    double swell = 1.0, wind = 0.0;
+    for (std::size_t i = 0; i < waves; ++i) {
+        swell += swelling_[i];
+        wind += glm::length(winding_[i]);
+    }
+    const double q = (radius * swell + wind) / radius_;
+    double reach = q + q * q * glm::length(beside_), power = q;
+    for (const glm::dvec2& side : sides_) {
+        reach += power * glm::length(side);
+        power *= q;
+    }
+    return is_uneven_ ? radius_ * reach : radius;
+}
+
+}  // namespace sporeprint

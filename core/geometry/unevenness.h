@@ -1,0 +1,72 @@
+// A map of space that makes a swept body irregular: caps that are no circles, margins that lie in no
+// plane, stems that are oval, swollen and winding.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "core/geometry/free_form.h"
+#include "core/individual/individual.h"
+
+namespace sporeprint {
+
+/// The irregularity of an individual as one smooth map of space, so that gills, warts, rings and the
+/// flesh of damage follow it, and nothing can pass through anything that it did not pass through
+/// before.
+///
+/// Let w = x + iz be the place across the axis, R the greatest radius of the outline and q = w / R.
+/// Between the ground and the lowest point of the cap the stem winds and swells: w' = w (1 + S(y)) +
+/// K(y). Then q' = q + c1 |q|^2 + sum over n = 2..5 of cn conj(q)^(n - 1), which adds cn cos(n
+/// theta) to a circle of radius 1 in first order: c1 moves it beside the axis, c2 makes it oval, the
+/// others give it n sides. At last y' = y + R h(y) Re(b1 q + b2 q^2 + b3 q^3), where h rises from 0 at
+/// the lowest point of the outline. All coefficients are proportional to
+/// `deformation.irregularity`; at 0 the map is the identity.
+///
+/// q' is injective where 2 |c1| |q| + sum of (n - 1) |cn| |q|^(n - 2) < 1, up to 1.15 R even for the
+/// largest coefficients, and y' increases with y.
+class Unevenness {
+  public:
+    /// Coefficients come from the seed and the species; those of a mix are blended.
+    explicit Unevenness(const Individual& individual);
+
+    [[nodiscard]] bool identity() const { return !is_uneven_; }
+
+    /// Maps points, and their directions by the Jacobian there.
+    void apply(std::span<SurfacePoint> points) const;
+    /// Maps positions in the same way.
+    void apply(std::span<glm::dvec3> places) const;
+
+    /// Returns an upper bound of the distance from the axis of the surface of a stem.
+    ///
+    /// radius  of the stem at rest, metres
+    [[nodiscard]] double reach_of_stem(double radius) const;
+
+  private:
+    static constexpr std::size_t sides = 4;  ///< n = 2..5
+    static constexpr std::size_t lifts = 3;  ///< powers of q
+    static constexpr std::size_t waves = 2;  ///< of the stem
+
+    /// The terms of all maps that depend on the height alone, with derivatives by height.
+    struct Level {
+        double widening = 1.0, widening_by = 0.0;
+        glm::dvec2 shift{0.0}, shift_by{0.0};  ///< metres
+        double lift = 0.0, lift_by = 0.0;      ///< h
+    };
+    [[nodiscard]] Level level_at(double y) const;
+    template <class Directions>
+    void move(glm::dvec3& position, Directions&& each_direction) const;
+
+    bool is_uneven_ = false;
+    double radius_ = 1.0;               ///< R, metres
+    double low_ = 0.0, rise_ = 1.0;     ///< where the margin begins to lift, and over what height
+    double base_ = 0.0, length_ = 0.0;  ///< of the stem below the cap
+    glm::dvec2 beside_{0.0};            ///< c1
+    std::array<glm::dvec2, sides> sides_{};
+    std::array<glm::dvec2, lifts> lifts_{};
+    std::array<glm::dvec2, waves> winding_{};  ///< metres
+    std::array<double, waves> winding_from_{}, swelling_{}, swelling_from_{};
+};
+
+}  // namespace sporeprint
