@@ -38,6 +38,11 @@ struct Mesh {
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
+/// Appends the vertices and triangles of one mesh to another, with all that vertices carry.
+///
+/// pre  both have the same arrays; an empty mesh takes those of the part
+void append(Mesh& mesh, const Mesh& part);
+
 /// An axis-aligned bounding box.
 struct Bounds {
     glm::vec3 min{0.0F};

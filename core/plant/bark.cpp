@@ -16,13 +16,6 @@ namespace sporeprint {
 
 namespace {
 
-void append(Mesh& mesh, const Mesh& part) {
-    const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
-    mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
-    for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
-}
-
 // Consecutive orders that are skinned together.
 struct Group {
     int low = 1, high = 1;  // orders

@@ -97,15 +97,10 @@ TEST(ImpostorAtlas, NormalLengthOfBallsSmallerThanATexelIsTwoThirds) {
         for (int y = 0; y < 12; ++y)
             for (int z = 0; z < 12; ++z) {
                 const glm::vec3 at(x, y, z);
-                const Mesh one = ball(
-                    0.03F, (at + 0.3F * glm::sin(at * 7.0F + glm::vec3(at.y, at.z, at.x))) / 6.0F,
-                    10, 6);
-                const auto first = static_cast<std::uint32_t>(balls.positions.size());
-                balls.positions.insert(balls.positions.end(), one.positions.begin(),
-                                       one.positions.end());
-                balls.normals.insert(balls.normals.end(), one.normals.begin(), one.normals.end());
-                for (const std::uint32_t index : one.indices)
-                    balls.indices.push_back(first + index);
+                append(balls,
+                       ball(0.03F,
+                            (at + 0.3F * glm::sin(at * 7.0F + glm::vec3(at.y, at.z, at.x))) / 6.0F,
+                            10, 6));
             }
     EXPECT_NEAR(impostor_atlas(scene_of(balls), side).normal_length, 2.0F / 3.0F, 0.1F);
 }

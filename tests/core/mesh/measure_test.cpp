@@ -67,10 +67,7 @@ TEST(Measure, AnInvertedMeshHasNegativeVolume) {
 
 TEST(Measure, DisjointMeshesAreTwoPieces) {
     Mesh mesh = cube(1.0f);
-    const Mesh other = cube(3.0f, {9.0f, 0.0f, 0.0f});
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-    for (const std::uint32_t i : other.indices) mesh.indices.push_back(first + i);
+    append(mesh, cube(3.0f, {9.0f, 0.0f, 0.0f}));
     const auto found = pieces(mesh);
     ASSERT_EQ(found.size(), 2u);
     EXPECT_DOUBLE_EQ(volume(found[0]), 1.0);

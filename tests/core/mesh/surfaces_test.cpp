@@ -79,11 +79,7 @@ TEST(Surfaces, TheHausdorffDistanceOfTwoBallsIsTheDifferenceOfTheirRadii) {
 TEST(Surfaces, TheHausdorffDistanceIncludesPiecesOfOneSurfaceOnly) {
     const Mesh alone = ball(1.0, 30);
     Mesh with_wart = alone;
-    const Mesh wart = ball(0.05, 6, {0.0, 1.2, 0.0});
-    const auto first = static_cast<std::uint32_t>(alone.positions.size());
-    with_wart.positions.insert(with_wart.positions.end(), wart.positions.begin(),
-                               wart.positions.end());
-    for (const std::uint32_t i : wart.indices) with_wart.indices.push_back(first + i);
+    append(with_wart, ball(0.05, 6, {0.0, 1.2, 0.0}));
     EXPECT_NEAR(hausdorff(alone, with_wart), 0.25, 1e-6);
     EXPECT_NEAR(hausdorff(with_wart, alone), 0.25, 1e-6);
 }
