@@ -60,18 +60,10 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
         if (form.lobes > 0 && form.lobe_depth > 0.0)
             layers_.push_back({form, 0.0, columns >= least_columns_per_lobe * form.lobes});
     has_fan_ = azimuth_.lateral > 0.0;
-    radius_ = 0.0;
-    double low = individual.stem_base, high = low;
-    for (const CurveName name : curve_names) {
-        const SubCurve& curve = individual.outline.of(name);
-        if (identity() || curve.empty()) continue;
-        radius_ = std::max(radius_, greatest_radius(curve));
-        for (int i = 0; i <= 32; ++i) {
-            const double y = curve.at(i / 32.0).y;
-            low = std::min(low, y);
-            high = std::max(high, y);
-        }
-    }
+    Extent extent{individual.stem_base, individual.stem_base};
+    if (!identity())
+        for (const CurveName name : curve_names) extent.include(individual.outline.of(name));
+    radius_ = extent.radius;
     Random random(individual.effective.seed, purposes::lobes);
     phase_ = random.uniform(0.0, 2.0 * pi);
     first_ = random.uniform(0.0, 2.0 * pi);
@@ -79,7 +71,7 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
     third_ = random.uniform(0.0, 2.0 * pi);
     for (Layer& layer : layers_) {
         const Azimuth& form = layer.form;
-        layer.root = low + form.lobe_root * (high - low);
+        layer.root = extent.low + form.lobe_root * (extent.high - extent.low);
         if (layer.carried) continue;
         constexpr int samples = 64;
         const double less = 0.3 * form.lobe_uneven;

@@ -89,10 +89,20 @@ std::optional<CurveName> self_intersecting_curve(const Outline& outline, DetailL
                     outline.rings(CurveName::hymenium, level).size());
 }
 
+void Extent::include(const SubCurve& curve) {
+    if (curve.empty()) return;
+    for (int i = 0; i <= 32; ++i) {
+        const OutlineSample point = curve.at(i / 32.0);
+        low = std::min(low, point.y);
+        high = std::max(high, point.y);
+        radius = std::max(radius, point.r);
+    }
+}
+
 double greatest_radius(const SubCurve& curve) {
-    double radius = 0.0;
-    for (int i = 0; i <= 32; ++i) radius = std::max(radius, curve.at(i / 32.0).r);
-    return radius;
+    Extent extent{0.0, 0.0};
+    extent.include(curve);
+    return extent.radius;
 }
 
 }  // namespace sporeprint

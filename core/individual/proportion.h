@@ -36,6 +36,15 @@ struct Proportions {
 [[nodiscard]] std::optional<CurveName> self_intersecting_curve(const Outline& outline,
                                                                DetailLevel level);
 
+/// What sub-curves reach at 33 evenly spaced points of each, metres.
+struct Extent {
+    double low, high;     ///< heights
+    double radius = 0.0;  ///< largest distance from the axis
+
+    /// Includes a sub-curve; an empty one changes nothing.
+    void include(const SubCurve& curve);
+};
+
 /// Returns the largest distance from the axis at 33 evenly spaced points of a sub-curve, metres.
 [[nodiscard]] double greatest_radius(const SubCurve& curve);
 
