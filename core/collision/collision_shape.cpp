@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <optional>
 #include <utility>
 
 #include "core/collision/convex_hull.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/mesh/measure.h"
 
@@ -40,6 +42,28 @@ struct Triangles {
         }
         return {low, high};
     }
+};
+
+/// The half-spaces whose intersection a convex mesh is.
+class Planes {
+  public:
+    explicit Planes(const Mesh& convex) {
+        for (std::size_t i = 0; i + 2 < convex.indices.size(); i += 3) {
+            const glm::dvec3 a(convex.positions[convex.indices[i]]),
+                b(convex.positions[convex.indices[i + 1]]),
+                c(convex.positions[convex.indices[i + 2]]);
+            const glm::dvec3 normal = glm::cross(b - a, c - a);
+            planes_.emplace_back(normal, glm::dot(normal, a));
+        }
+    }
+    [[nodiscard]] bool contain(const glm::dvec3& point) const {
+        return std::all_of(planes_.begin(), planes_.end(), [&](const auto& plane) {
+            return glm::dot(plane.first, point) <= plane.second;
+        });
+    }
+
+  private:
+    std::vector<std::pair<glm::dvec3, double>> planes_;
 };
 
 /// Returns the hulls of slices of equal height; those of no volume are left out.
@@ -166,52 +190,37 @@ Mesh hull_of(const Capsule& capsule) {
 
 double overlap(const Capsule& capsule, const Mesh& convex) {
     constexpr int steps = 20;
-    const Bounds box = bounds(convex);
-    const glm::dvec3 margin(capsule.radius);
-    const glm::dvec3 low =
-        glm::min(glm::dvec3(box.min), glm::min(capsule.from, capsule.to) - margin);
-    const glm::dvec3 high =
-        glm::max(glm::dvec3(box.max), glm::max(capsule.from, capsule.to) + margin);
-    std::vector<std::pair<glm::dvec3, double>> planes;
-    for (std::size_t i = 0; i + 2 < convex.indices.size(); i += 3) {
-        const glm::dvec3 a(convex.positions[convex.indices[i]]),
-            b(convex.positions[convex.indices[i + 1]]), c(convex.positions[convex.indices[i + 2]]);
-        const glm::dvec3 normal = glm::cross(b - a, c - a);
-        planes.emplace_back(normal, glm::dot(normal, a));
+    // A grid along the axis, since a thin stem that leans fills little of an upright box.
+    const glm::dvec3 up = unit_or(capsule.to - capsule.from, {0.0, 1.0, 0.0});
+    const glm::dvec3 x_axis = square_to(up, {1.0, 0.01, 0.0}), z_axis = glm::cross(x_axis, up);
+    const glm::dmat3 frame(x_axis, up, z_axis);
+    const glm::dvec3 from = capsule.from * frame, to = capsule.to * frame, margin(capsule.radius);
+    glm::dvec3 low = glm::min(from, to) - margin, high = glm::max(from, to) + margin;
+    for (const glm::vec3& corner : convex.positions) {
+        const glm::dvec3 at = glm::dvec3(corner) * frame;
+        low = glm::min(low, at);
+        high = glm::max(high, at);
     }
+    const Planes planes(convex);
     int both = 0, either = 0;
     for (int x = 0; x < steps; ++x)
         for (int y = 0; y < steps; ++y)
             for (int z = 0; z < steps; ++z) {
-                const glm::dvec3 at =
-                    low + (glm::dvec3(x, y, z) + 0.5) / static_cast<double>(steps) * (high - low);
+                const glm::dvec3 at = frame * (low + (glm::dvec3(x, y, z) + 0.5) /
+                                                         static_cast<double>(steps) * (high - low));
                 const bool in_capsule = capsule.contains(at);
-                const bool in_hull = std::all_of(planes.begin(), planes.end(), [&](auto& plane) {
-                    return glm::dot(plane.first, at) <= plane.second;
-                });
+                const bool in_hull = planes.contain(at);
                 both += in_capsule && in_hull ? 1 : 0;
                 either += in_capsule || in_hull ? 1 : 0;
             }
     return either == 0 ? 0.0 : static_cast<double>(both) / either;
 }
 
-double filled_volume(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
-    return indices.empty() ? 0.0
-                           : total_volume(sliced_hulls({positions, indices}, reference_slices));
-}
+namespace {
 
-std::vector<CollisionShape> fitted_shapes(const std::string& part,
-                                          std::span<const glm::vec3> positions,
-                                          std::span<const std::uint32_t> indices) {
+/// Returns a solid for each hull: a capsule if one fits, or else the hull itself.
+std::vector<CollisionShape> shapes_of(const std::string& part, std::vector<Mesh> hulls) {
     std::vector<CollisionShape> shapes;
-    if (indices.empty()) return shapes;
-    const Triangles triangles{positions, indices};
-    const double filled = filled_volume(positions, indices);
-    std::vector<Mesh> hulls;
-    for (const int count : slice_counts) {
-        hulls = sliced_hulls(triangles, count);
-        if (least_fill * total_volume(hulls) <= filled) break;
-    }
     for (std::size_t i = 0; i < hulls.size(); ++i) {
         std::optional<Capsule> capsule = capsule_of(hulls[i]);
         if (!capsule || overlap(*capsule, hulls[i]) < least_overlap) {
@@ -225,6 +234,70 @@ std::vector<CollisionShape> fitted_shapes(const std::string& part,
         shapes.push_back({part, *capsule});
     }
     return shapes;
+}
+
+/// Returns the volume that solids share with thin convex slices, of that of both together: by
+/// counting points of a grid around each slice.
+double shared_volume(const std::vector<CollisionShape>& shapes, std::span<const Mesh> slices) {
+    constexpr int across = 16;
+    std::vector<std::optional<Planes>> planes;
+    for (const CollisionShape& shape : shapes) {
+        const auto* const hull = std::get_if<Mesh>(&shape.solid);
+        planes.push_back(hull ? std::optional<Planes>(*hull) : std::nullopt);
+    }
+    const auto in_shapes = [&](const glm::dvec3& at) {
+        for (std::size_t i = 0; i < shapes.size(); ++i)
+            if (planes[i] ? planes[i]->contain(at)
+                          : std::get<Capsule>(shapes[i].solid).contains(at))
+                return true;
+        return false;
+    };
+    double both = 0.0, either = 0.0;
+    for (const Mesh& slice : slices) {
+        const Planes inside(slice);
+        const Bounds box = bounds(slice);
+        glm::dvec3 low(box.min), high(box.max);
+        const glm::dvec3 margin = 0.5 * (high - low);
+        low -= glm::dvec3(margin.x, 0.0, margin.z);
+        high += glm::dvec3(margin.x, 0.0, margin.z);
+        const glm::dvec3 step = (high - low) / glm::dvec3(across, 1.0, across);
+        const double volume = step.x * step.y * step.z;
+        for (int x = 0; x < across; ++x)
+            for (int z = 0; z < across; ++z) {
+                const glm::dvec3 at = low + (glm::dvec3(x, 0.0, z) + 0.5) * step;
+                const bool in_slice = inside.contain(at), in_one = in_shapes(at);
+                both += in_slice && in_one ? volume : 0.0;
+                either += in_slice || in_one ? volume : 0.0;
+            }
+    }
+    return either > 0.0 ? both / either : 0.0;
+}
+
+}  // namespace
+
+double filled_volume(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+    return indices.empty() ? 0.0
+                           : total_volume(sliced_hulls({positions, indices}, reference_slices));
+}
+
+std::vector<CollisionShape> fitted_shapes(const std::string& part,
+                                          std::span<const glm::vec3> positions,
+                                          std::span<const std::uint32_t> indices) {
+    std::vector<CollisionShape> best;
+    if (indices.empty()) return best;
+    const Triangles triangles{positions, indices};
+    const std::vector<Mesh> reference = sliced_hulls(triangles, reference_slices);
+    double most = -1.0;
+    for (const int count : slice_counts) {
+        std::vector<CollisionShape> shapes = shapes_of(part, sliced_hulls(triangles, count));
+        const double shared = shared_volume(shapes, reference);
+        if (shared > most) {
+            most = shared;
+            best = std::move(shapes);
+        }
+        if (most >= least_shared) break;
+    }
+    return best;
 }
 
 std::vector<CollisionShape> capsules_along(const std::string& part,

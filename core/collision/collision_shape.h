@@ -36,10 +36,10 @@ struct CollisionShape {
     std::variant<Capsule, Mesh> solid;  ///< a capsule, or a convex mesh
 };
 
-/// The least volume of a part, its hollows filled, of that of the convex hulls that stand for it;
-/// and the least volume that a capsule shares with such a hull, of that of both together. Together
-/// they give about 0.85.
-inline constexpr double least_fill = 0.94, least_overlap = 0.88;
+/// The least volume that the solids of a part share with it, its hollows filled, of that of both
+/// together, unless the most solids have less; and the least that a capsule shares with the convex
+/// hull which it replaces.
+inline constexpr double least_shared = 0.9, least_overlap = 0.9;
 
 /// The most corners of a convex solid.
 inline constexpr int most_hull_corners = 114;
@@ -55,9 +55,10 @@ inline constexpr int most_hull_corners = 114;
 [[nodiscard]] double filled_volume(std::span<const glm::vec3> positions,
                                    std::span<const std::uint32_t> indices);
 
-/// Returns solids that stand for triangles: as few slices of equal height, at most eight, as have
-/// the volume of sixteen of them within least_fill; each a capsule if one fits its convex hull
-/// within least_overlap, or else that hull with at most most_hull_corners corners.
+/// Returns solids that stand for triangles: as few slices of equal height, at most eight, as share
+/// least_shared with the convex hulls of sixteen, or else those that share most; each a capsule if
+/// one fits its convex hull within least_overlap, or else that hull with at most most_hull_corners
+/// corners.
 ///
 /// positions, indices  of a mesh, or of a part of it
 /// returns             nothing for triangles in one plane

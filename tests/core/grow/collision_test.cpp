@@ -81,43 +81,44 @@ constexpr std::uint32_t on_stem = 1U << index_of(Part::stem),
                         on_cap = ~(on_stem | 1U << index_of(Part::veil));
 
 /// Returns the volume that the solids of some parts share with these parts of the mesh, their
-/// hollows filled, of that of both together.
+/// hollows filled, of that of both together. Each slice is measured on a grid of its own, as wide
+/// again to all sides, since a thin stem that leans fills little of its whole box.
 double shared(const Mesh& mesh, const std::vector<CollisionShape>& shapes,
               std::span<const std::uint32_t> parts) {
-    std::vector<CollisionShape> filled;
-    glm::dvec3 low(1e9), high(-1e9);
-    for (const std::uint32_t part : parts)
-        for (Mesh& slice : thin_slices(mesh, part)) {
-            const Bounds box = bounds(slice);
-            low = glm::min(low, glm::dvec3(box.min));
-            high = glm::max(high, glm::dvec3(box.max));
-            filled.push_back({"slice", std::move(slice)});
-        }
     const auto in = [](const std::vector<CollisionShape>& all, const glm::dvec3& at) {
         return std::any_of(all.begin(), all.end(),
                            [&](const CollisionShape& one) { return contains(one, at); });
     };
-    constexpr int steps = 30;
-    const glm::dvec3 margin = 0.1 * (high - low);
-    low -= margin;
-    high += margin;
-    int both = 0, either = 0;
-    for (int x = 0; x < steps; ++x)
-        for (int y = 0; y < steps; ++y)
-            for (int z = 0; z < steps; ++z) {
-                const glm::dvec3 at =
-                    low + (glm::dvec3(x, y, z) + 0.5) / static_cast<double>(steps) * (high - low);
-                const bool of_mesh = in(filled, at), of_shapes = in(shapes, at);
-                both += of_mesh && of_shapes ? 1 : 0;
-                either += of_mesh || of_shapes ? 1 : 0;
-            }
-    return static_cast<double>(both) / either;
+    constexpr int across = 36, steps = 3;
+    double both = 0.0, either = 0.0;
+    for (const std::uint32_t part : parts) {
+        const std::vector<Mesh> slices = thin_slices(mesh, part);
+        for (std::size_t i = 0; i < slices.size(); ++i) {
+            const std::vector<CollisionShape> filled{{"slice", slices[i]}};
+            const Bounds box = bounds(slices[i]);
+            glm::dvec3 low(box.min), high(box.max);
+            const glm::dvec3 size = high - low;
+            low -= glm::dvec3(size.x, i == 0 ? size.y : 0.0, size.z);
+            high += glm::dvec3(size.x, i + 1 == slices.size() ? size.y : 0.0, size.z);
+            const glm::dvec3 step = (high - low) / glm::dvec3(across, steps, across);
+            const double volume = step.x * step.y * step.z;
+            for (int x = 0; x < across; ++x)
+                for (int y = 0; y < steps; ++y)
+                    for (int z = 0; z < across; ++z) {
+                        const glm::dvec3 at = low + (glm::dvec3(x, y, z) + 0.5) * step;
+                        const bool of_mesh = in(filled, at), of_shapes = in(shapes, at);
+                        both += of_mesh && of_shapes ? volume : 0.0;
+                        either += of_mesh || of_shapes ? volume : 0.0;
+                    }
+        }
+    }
+    return both / either;
 }
 
 class CollisionOfSpecies : public testing::TestWithParam<std::string> {};
 
 /// Thin stems are measured most coarsely, and arched rays are filled.
-constexpr double least_of_one = 0.65, least_mean = 0.8;
+constexpr double least_of_one = 0.7, least_mean = 0.85;
 
 TEST_P(CollisionOfSpecies, SharesMostOfItsVolumeWithTheFilledMesh) {
     std::vector<double> shares;
