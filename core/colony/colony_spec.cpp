@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/math/purposes.h"
+#include "core/math/random.h"
 #include "core/params/messages.h"
 
 namespace sporeprint {
@@ -95,6 +97,7 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
     check(params, Info{.name = ""}, "", problems);
     const MixPart* most = nullptr;
     ColonyTraits traits;
+    std::uint32_t names = 0;
     for (const MixPart& part : spec.mix) {
         const AtlasEntry* entry = atlas.find(part.id);
         if (!entry) {
@@ -102,6 +105,7 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
             continue;
         }
         const Facts& facts = entry->species.facts;
+        names ^= stream_of(part.id);
         traits.lateral = traits.lateral || is_lateral(facts.form);
         traits.capped = traits.capped && has_cap_on_stem(facts.form);
         if (!most || part.weight > most->weight ||
@@ -130,6 +134,7 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
     if (!traits.capped && params.cap_scale != ColonyParams{}.cap_scale)
         report(problems, "/cap_scale", "these species stand whole: no cap is set on a stem");
     if (!problems.empty()) throw Impossible(std::move(problems));
+    traits.seed = Random(params.seed, purposes::colony_layout, names).bits();
     return traits;
 }
 

@@ -156,6 +156,7 @@ struct ColonyTraits {
     Habit habit = Habit::troop;  ///< requested, or of the species with the largest weight
     bool capped = true;          ///< caps on stems of the colony; otherwise whole individuals
     bool lateral = false;        ///< individuals grow from a vertical surface
+    std::uint32_t seed = 1;      ///< of its layout: from that of the request and its set of species
     RootsShown roots = RootsShown::buried;
     bool operator==(const ColonyTraits&) const = default;
 };

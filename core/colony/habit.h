@@ -58,8 +58,9 @@ struct ColonySite {
 /// growth  result of colony_growth()
 /// fit     dimensions of the mature individual, metres; its cap radius determines the spacing
 /// source  [Torres] for habit rooted: places, heights and radii are those of colony_skeleton(). The
-///         other habits are ours, from field guides: tufts are spread like a sunflower's seeds,
-///         troops keep a distance, stems on a trunk turn upwards
+///         other habits are ours, from field guides and the statistics of mapped fruit bodies
+///         (Thomas processes of clusters, on arcs): tufts are fused at the base and bend towards the
+///         light, troops stand in patches, rings in arcs, stems on a trunk turn upwards
 [[nodiscard]] ColonySite colony_site(const ColonyParams& params, const ColonyTraits& traits,
                                      const ColonyRoots& growth, const StemFit& fit);
 

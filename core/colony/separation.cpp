@@ -142,7 +142,7 @@ class Placer {
 
     std::vector<ColonyMember> all() {
         for (std::size_t i = 0; i < site_.places.size(); ++i) {
-            Random random(params_.seed, purposes::colony_postures, site_.places[i].number);
+            Random random(traits_.seed, purposes::colony_postures, site_.places[i].number);
             const double turn = random.uniform(0.0, 2.0 * pi), jitter = random.symmetric();
             place_member(i, turn, jitter);
         }

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
 #include "core/math/spline.h"
 
 namespace sporeprint {
@@ -42,6 +44,16 @@ std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3
         normals.push_back(unit(normal));
     }
     return normals;
+}
+
+AxisAngles axis_angles(const Individual& individual) {
+    AxisAngles mean;
+    for (const SpeciesShare& part : individual.parts) {
+        Random random(individual.effective.seed, purposes::axis_angles, stream_of(part.id));
+        mean.bend += part.weight * random.uniform(0.0, 2.0 * pi);
+        mean.lean += part.weight * random.uniform(0.0, 2.0 * pi);
+    }
+    return mean;
 }
 
 Axis::Axis(const AxisCurve& curve, const DeformationOf<Plain>& deformation,

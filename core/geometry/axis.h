@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/individual/axis_curve.h"
+#include "core/individual/individual.h"
 #include "core/model/deformation.h"
 
 namespace sporeprint {
@@ -27,11 +28,14 @@ struct AxisStation {
     }
 };
 
-/// Random azimuths of bend and lean of one individual, radians round the vertical.
+/// Azimuths of bend and lean of one individual, radians round the vertical.
 struct AxisAngles {
     double bend = 0.0;
     double lean = 0.0;
 };
+
+/// Returns the random azimuths of an individual: means of those of its species, by their weights.
+[[nodiscard]] AxisAngles axis_angles(const Individual& individual);
 
 class Axis {
   public:

@@ -89,11 +89,8 @@ double polygon_scale(int sides) { return pi / (sides * sine(pi / sides)); }
 ///
 /// throws  Impossible if the graph would be bent through itself
 Axis bent_axis(const BranchGraph& graph, const DeformationOf<Plain>& deformation,
-               std::uint32_t seed) {
-    Random random(seed, purposes::axis_angles);
-    const double bend = random.uniform(0.0, 2.0 * pi);
-    const double lean = random.uniform(0.0, 2.0 * pi);
-    Axis axis(AxisCurve(), deformation, {bend, lean}, 0.0, graph.height);
+               const AxisAngles& angles) {
+    Axis axis(AxisCurve(), deformation, angles, 0.0, graph.height);
     const double fold = axis.greatest_curvature() * graph.reach;
     if (fold >= most_fold)
         throw Impossible(
@@ -129,7 +126,7 @@ std::vector<FreeForm> dents_of(const BranchGraph& graph, double imperfection, st
 BranchGraph deformed(const Individual& individual) {
     BranchGraph graph = individual.branch_graph;
     const DeformationOf<Plain>& deformation = individual.model.deformation;
-    const Axis axis = bent_axis(graph, deformation, individual.effective.seed);
+    const Axis axis = bent_axis(graph, deformation, axis_angles(individual));
     const std::vector<FreeForm> dents =
         dents_of(graph, deformation.imperfection, individual.effective.seed);
     const auto moved = [&](SurfacePoint& point) {

@@ -28,13 +28,6 @@ constexpr int cap_dents = 7, stem_dents = 4;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
-AxisAngles angles_of(std::uint32_t seed) {
-    Random random(seed, purposes::axis_angles);
-    const double bend = random.uniform(0.0, 2.0 * pi);
-    const double lean = random.uniform(0.0, 2.0 * pi);
-    return {bend, lean};
-}
-
 std::string text(double value) {
     std::string digits = std::to_string(std::floor(value * 10.0) / 10.0);
     return digits.substr(0, digits.find('.') + 2);
@@ -141,8 +134,7 @@ class Sweeper {
 Deformer::Deformer(const Individual& individual)
     : base_(individual.stem_base),
       top_(std::max(individual.stem_top, individual.stem_base + 1e-4)),
-      axis_(individual.axis, individual.model.deformation, angles_of(individual.effective.seed),
-            base_, top_),
+      axis_(individual.axis, individual.model.deformation, axis_angles(individual), base_, top_),
       unevenness_(individual) {
     const Model& model = individual.model;
     const Outline& outline = individual.outline;

@@ -1,7 +1,5 @@
 #include "core/geometry/unevenness.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -47,31 +45,22 @@ glm::dvec2 drawn(Random& random, double length) {
 
 Unevenness::Unevenness(const Individual& individual) {
     const double amount = individual.model.deformation.irregularity;
-    if (!(amount > 0.0) || individual.is_branched()) return;
+    if (!(amount > 0.0)) return;
     is_uneven_ = true;
     const Outline& outline = individual.outline;
-    radius_ = 1e-9;
-    double low = individual.stem_base, high = low, cap_low = individual.stem_top;
-    for (const CurveName name : curve_names) {
-        const SubCurve& curve = outline.of(name);
-        if (curve.empty()) continue;
-        radius_ = std::max(radius_, greatest_radius(curve));
-        constexpr int samples = 32;
-        for (int i = 0; i <= samples; ++i) {
-            const double y = curve.at(static_cast<double>(i) / samples).y;
-            low = std::min(low, y);
-            high = std::max(high, y);
-            if (name != CurveName::stem) cap_low = std::min(cap_low, y);
-        }
-    }
-    low_ = low;
-    rise_ = std::max(0.5 * (high - low), least_rise * radius_);
+    Extent cap{individual.stem_top, individual.stem_top};
+    cap.include(outline.hymenium);
+    cap.include(outline.cap);
+    Extent whole{individual.stem_base, individual.stem_base};
+    for (const CurveName name : curve_names) whole.include(outline.of(name));
+    radius_ = std::max(whole.radius, 1e-9);
+    low_ = whole.low;
+    rise_ = std::max(0.5 * (whole.high - whole.low), least_rise * radius_);
     base_ = individual.stem_base;
-    length_ = std::max(cap_low - base_, 0.0);
+    length_ = std::max(cap.low - base_, 0.0);
     const double stem_radius = greatest_radius(outline.stem);
     for (const SpeciesShare& part : individual.parts) {
-        Random random(individual.effective.seed, purposes::unevenness,
-                      XXH32(part.id.data(), part.id.size(), 0));
+        Random random(individual.effective.seed, purposes::unevenness, stream_of(part.id));
         const double share = amount * part.weight;
         beside_ += share * drawn(random, beside);
         for (std::size_t i = 0; i < sides; ++i) sides_[i] += share * drawn(random, of_sides[i]);

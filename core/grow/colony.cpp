@@ -418,9 +418,7 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
         throw_if_cancelled(execution);
         const MushroomSpec own = individual_spec(spec, which);
         Individual one = resolve(own, atlas, execution.caches.morphs);
-        // All members use the images of one mushroom, so features drawn by its seed are where they
-        // are painted.
-        one.effective.seed = params.seed;
+        // All members use the images of one mushroom, so what they show is where it is painted.
         one.painted_seed = painted_seed(params.seed, params.share);
         // Placement uses one level of detail, so that members are moved or skipped alike at every
         // level.

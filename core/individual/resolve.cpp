@@ -23,26 +23,33 @@ namespace {
 constexpr int most_pores = 3000;  // as solids; denser ones exist in the images alone
 constexpr double most_natural_fold =
     0.6;  // curvature of the axis times the radius of the stem; it folds at 1
+/// How much farther from its axis the surface of a stem is at irregularity 1, in radii, about.
+constexpr double widening_by_irregularity = 1.3;
 
-/// The random draws of an individual, -1..1 or 0..1, in a fixed order; new ones are appended.
+/// The random draws of an individual, -1..1 or 0..1.
 struct Draws {
     double size, stem_length, stem_width, cap_height, bend, lean, imperfection, lightness,
         irregularity;
 };
 
-Draws draws_of(std::uint32_t seed) {
-    Random random(seed, purposes::variation);
-    Draws d{};
-    d.size = random.symmetric();
-    d.stem_length = random.symmetric();
-    d.stem_width = random.symmetric();
-    d.cap_height = random.symmetric();
-    d.bend = random.uniform();
-    d.lean = random.uniform();
-    d.imperfection = random.uniform();
-    d.lightness = random.symmetric();
-    d.irregularity = random.uniform(0.5, 1.0);
-    return d;
+/// Returns the means of the draws of all species by their weights, so that one seed gives another
+/// individual in each species, and mixes change gradually from one to the other.
+Draws draws_of(std::uint32_t seed, const std::vector<Source>& sources) {
+    Draws mean{};
+    for (const Source& source : sources) {
+        Random random(seed, purposes::variation, stream_of(source.id));
+        // In a fixed order; new ones are appended.
+        mean.size += source.weight * random.symmetric();
+        mean.stem_length += source.weight * random.symmetric();
+        mean.stem_width += source.weight * random.symmetric();
+        mean.cap_height += source.weight * random.symmetric();
+        mean.bend += source.weight * random.uniform();
+        mean.lean += source.weight * random.uniform();
+        mean.imperfection += source.weight * random.uniform();
+        mean.lightness += source.weight * random.symmetric();
+        mean.irregularity += source.weight * random.uniform(0.6, 1.0);
+    }
+    return mean;
 }
 
 double factor(double draw, double spread, double variation) {
@@ -318,8 +325,11 @@ void resolve_swept(Individual& individual, const MushroomSpec& spec,
 
     // Variation bends an individual only as far as its own stem permits; a requested bend, or that
     // of a custom model, is checked by core/geometry instead.
-    const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
-                           greatest_radius(individual.outline.stem);
+    const double irregular =
+        requested.deformation.irregularity.value_or(individual.model.deformation.irregularity);
+    const double slender =
+        std::max(individual.stem_top - individual.stem_base, 1e-4) /
+        (greatest_radius(individual.outline.stem) * (1.0 + widening_by_irregularity * irregular));
     individual.axis = axis_of(sources);
     individual.azimuth = fan_of(sources);
     individual.lobes = lobes_of(sources);
@@ -432,8 +442,13 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
     else
         model.shape = Swept{};
 
-    const Draws draws = draws_of(requested.seed);
+    const Draws draws = draws_of(requested.seed, sources);
     const double variation = requested.variation;
+    if (!sources.front().is_branched())
+        model.deformation.irregularity =
+            std::min(1.0, model.deformation.irregularity +
+                              draws.irregularity * spread.irregularity *
+                                  std::min(1.0, 2.0 * variation) * (0.5 + 0.5 * requested.age));
     if (sources.front().is_branched())
         resolve_branched(individual, spec, sources, draws, spread);
     else
@@ -444,10 +459,6 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
         std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
     deformation.imperfection = std::min(
         1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
-    if (!sources.front().is_branched())
-        deformation.irregularity =
-            std::min(1.0, deformation.irregularity + draws.irregularity * spread.irregularity *
-                                                         variation * (0.5 + 0.5 * requested.age));
 
     // Overrides apply to every species that can have them.
     for (Source& source : sources) overlay_all(requested, source.now);

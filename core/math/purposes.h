@@ -66,10 +66,12 @@ enum Purpose : std::uint32_t {
     painted_damage = 110,  ///< painted, ten kinds
     scale_outlines = 120,  ///< painted
     damage_grain = 121,
-    skin_grain = 122,   ///< texture of cap and stem
-    hue = 123,          ///< the individual's own hue, and its drift across the cap
-    zone_widths = 124,  ///< of a zoned cap
-    unevenness = 130,   ///< of outlines and stems
+    skin_grain = 122,      ///< texture of cap and stem
+    hue = 123,             ///< the individual's own hue, and its drift across the cap
+    zone_widths = 124,     ///< of a zoned cap
+    unevenness = 130,      ///< of outlines and stems
+    colony_layout = 131,   ///< seed of the layout of a colony
+    colony_patches = 132,  ///< middles of the patches of a troop; slope of the rows of a tier
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -140,6 +142,8 @@ enum Purpose : std::uint32_t {
         case hue:
         case zone_widths:
         case unevenness:
+        case colony_layout:
+        case colony_patches:
             return 1;
     }
     return 0;

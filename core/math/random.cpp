@@ -1,5 +1,7 @@
 #include "core/math/random.h"
 
+#include <xxhash.h>
+
 namespace sporeprint {
 
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c,
@@ -16,6 +18,8 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c,
     }
     return c;
 }
+
+std::uint32_t stream_of(std::string_view name) { return XXH32(name.data(), name.size(), 0); }
 
 std::uint32_t Random::bits() {
     if (used_ == 4) {

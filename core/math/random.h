@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace sporeprint {
 
@@ -12,6 +13,11 @@ namespace sporeprint {
 /// source  [Salmon2011]
 [[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key);
+
+/// Returns the object of a stream that belongs to a name, as that of a species.
+///
+/// source  XXH32 of its bytes
+[[nodiscard]] std::uint32_t stream_of(std::string_view name);
 
 /// A stream of draws for one purpose and object, so that a new draw in one place changes nothing
 /// elsewhere. Assign every draw to a variable before use: the order of evaluation of arguments

@@ -126,7 +126,7 @@ struct Spread {
     double lean_deg = 6.0;
     double imperfection = 0.3;
     double lightness = 0.1;
-    double irregularity = 0.0;
+    double irregularity = 0.75;
 
     static constexpr void fields(auto visit) {
         using S = Spread;
@@ -169,7 +169,7 @@ struct Spread {
                  .min = 0,
                  .max = 1,
                  .doc = "Added to the template's irregularity at the end of life, at most; to that "
-                        "of a button half as much."});
+                        "of a button half as much. In full from variation 0.5 on."});
     }
     bool operator==(const Spread&) const = default;
 };

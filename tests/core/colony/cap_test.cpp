@@ -46,6 +46,7 @@ TEST_P(EveryCap, IsClosedByADiscInsideItsStem) {
     for (const double neck : {1.0, 2.0}) {
         Individual individual = resolved(order_of(GetParam(), 0.6, 1, 1));
         individual.model.deformation.imperfection = 0.0;
+        individual.model.deformation.irregularity = 0.0;
         const double radius = stem_fit(individual).radius / neck;
         const double bottom = -neck_length(neck) * radius;
         individual.has_ring = false;

@@ -49,6 +49,24 @@ TEST(ColonySpec, StemsCarryCapsAndOtherFormsAreWholeIndividuals) {
     EXPECT_EQ(colony_traits(mix, atlas()).habit, Habit::troop);
 }
 
+TEST(ColonySpec, OneSeedIsAnotherLayoutInEachSetOfSpecies) {
+    const auto seed = [](const ColonySpec& spec) { return colony_traits(spec, atlas()).seed; };
+    ColonySpec one = colony_of("armillaria_mellea");
+    EXPECT_NE(seed(one), seed(colony_of("hypholoma_fasciculare")));
+    ColonySpec next = one;
+    next.params.seed = 2;
+    EXPECT_NE(seed(one), seed(next));
+    next.params.seed = one.params.seed;
+    next.params.age = 0.9;
+    EXPECT_EQ(seed(one), seed(next));
+    ColonySpec mix = one;
+    mix.mix = {{"armillaria_mellea", 600}, {"hypholoma_fasciculare", 400}};
+    EXPECT_NE(seed(mix), seed(one));
+    ColonySpec other = one;
+    other.mix = {{"hypholoma_fasciculare", 700}, {"armillaria_mellea", 300}};
+    EXPECT_EQ(seed(mix), seed(other)) << "weights and order move nothing";
+}
+
 TEST(ColonySpec, RootsAreShownWhereThereAreSome) {
     ColonySpec spec = colony_of("armillaria_mellea");
     EXPECT_EQ(colony_traits(spec, atlas()).roots, RootsShown::buried);

@@ -29,10 +29,10 @@ ColonySite site_of(const ColonyParams& params, const ColonyTraits& traits) {
 TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
     ColonyParams params;
     params.count = 256;
-    params.seed = 7;
-    const ColonyTraits traits = nature_of(Habit::rooted);
+    ColonyTraits traits = nature_of(Habit::rooted);
+    traits.seed = 7;
     const ColonyRoots growth = colony_growth(params, traits, fit);
-    const ColonySkeleton source = colony_skeleton(growth, params.seed);
+    const ColonySkeleton source = colony_skeleton(growth, traits.seed);
     const ColonySite site = colony_site(params, traits, growth, fit);
     ASSERT_EQ(site.places.size(), source.stems.size());
     ASSERT_EQ(site.ground.nodes.size(), source.root_nodes);
@@ -56,10 +56,10 @@ TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
 // remaining ones have the same mean position as all.
 TEST(ColonyHabit, ThinningPrefersNoPlace) {
     ColonyParams params;
-    const ColonyTraits traits = nature_of(Habit::rooted);
+    ColonyTraits traits = nature_of(Habit::rooted);
     double all = 0.0, retained = 0.0;
     std::size_t stems = 0, places = 0;
-    for (params.seed = 1; params.seed <= 300; ++params.seed) {
+    for (traits.seed = 1; traits.seed <= 300; ++traits.seed) {
         params.count = 256;
         for (const ColonyPlace& place : site_of(params, traits).places) {
             all += place.share;
@@ -128,35 +128,73 @@ TEST(ColonyHabit, ATuftRisesFromOneBaseAndLeansOut) {
     EXPECT_GE(fused, 6);
 }
 
-TEST(ColonyHabit, ATroopKeepsADistance) {
+TEST(ColonyHabit, ATroopStandsInPatchesAtADistance) {
     ColonyParams params;
     params.count = 64;
-    const ColonySite site = site_of(params, nature_of(Habit::troop));
-    double nearest = 1e9, sum = 0.0;
-    for (const ColonyPlace& one : site.places) {
-        double own = 1e9;
-        for (const ColonyPlace& other : site.places)
-            if (&one != &other) own = std::min(own, glm::distance(one.foot, other.foot));
-        nearest = std::min(nearest, own);
-        sum += own;
+    ColonyTraits traits = nature_of(Habit::troop);
+    double pairs = 0.0, expected = 0.0;
+    constexpr double near = 4.0;  // cap radii
+    for (traits.seed = 1; traits.seed <= 12; ++traits.seed) {
+        const ColonySite site = site_of(params, traits);
+        double nearest = 1e9, sum = 0.0, square = 0.0;
+        for (const ColonyPlace& one : site.places) {
+            double own = 1e9;
+            for (const ColonyPlace& other : site.places) {
+                if (&one == &other) continue;
+                const double apart = glm::distance(one.foot, other.foot) / fit.cap_radius;
+                own = std::min(own, apart);
+                pairs += apart < near ? 1.0 : 0.0;
+            }
+            nearest = std::min(nearest, own);
+            sum += own;
+            square += glm::dot(one.foot, one.foot) / (64.0 * fit.cap_radius * fit.cap_radius);
+        }
+        EXPECT_GT(nearest, 0.8);
+        EXPECT_GT(sum / 64.0, 1.5) << "in the mean caps hardly touch";
+        // As many places spread evenly over the disc of the same mean square distance from its
+        // middle.
+        expected += 64.0 * 63.0 * near * near / (2.0 * square);
     }
-    EXPECT_GT(nearest, fit.cap_radius);
-    EXPECT_GT(sum / 64.0, 1.6 * fit.cap_radius) << "in the mean caps hardly touch";
+    EXPECT_GT(pairs, 1.2 * expected);
 }
 
-TEST(ColonyHabit, ARingIsRound) {
+TEST(ColonyHabit, ARingStandsInArcs) {
     ColonyParams params;
     params.count = 48;
-    const ColonySite site = site_of(params, nature_of(Habit::ring));
-    const double radius = 2.4 * fit.cap_radius * 48 / (2.0 * 3.14159265);
-    std::vector<double> angles;
-    for (const ColonyPlace& place : site.places) {
-        EXPECT_NEAR(glm::length(place.foot), radius, 0.35 * 6.0 * fit.cap_radius);
-        angles.push_back(std::atan2(place.foot.z, place.foot.x));
+    ColonyTraits traits = nature_of(Habit::ring);
+    for (traits.seed = 1; traits.seed <= 12; ++traits.seed) {
+        const ColonySite site = site_of(params, traits);
+        double mean = 0.0;
+        for (const ColonyPlace& place : site.places) mean += glm::length(place.foot) / 48.0;
+        EXPECT_GT(2.0 * 3.14159265 * mean, 48 * 1.8 * fit.cap_radius) << "room for all";
+        std::vector<double> angles;
+        for (const ColonyPlace& place : site.places) {
+            EXPECT_NEAR(glm::length(place.foot), mean, 0.06 * mean + 1.5 * fit.cap_radius);
+            angles.push_back(std::atan2(place.foot.z, place.foot.x));
+        }
+        std::sort(angles.begin(), angles.end());
+        double gap = 2.0 * 3.14159265 + angles.front() - angles.back();
+        for (std::size_t i = 1; i < angles.size(); ++i)
+            gap = std::max(gap, angles[i] - angles[i - 1]);
+        EXPECT_GT(gap, 1.8 * 2.0 * 3.14159265 / 48) << "arcs are apart";
+        EXPECT_LT(gap, 0.25 * 2.0 * 3.14159265);
     }
-    std::sort(angles.begin(), angles.end());
-    for (std::size_t i = 1; i < angles.size(); ++i)
-        EXPECT_LT(angles[i] - angles[i - 1], 1.7 * 2.0 * 3.14159265 / 48) << "no gap";
+}
+
+TEST(ColonyHabit, AnotherSeedIsAnotherLayout) {
+    ColonyParams params;
+    for (const Habit habit : {Habit::tuft, Habit::troop, Habit::ring, Habit::tier}) {
+        ColonyTraits traits = nature_of(habit);
+        const ColonySite one = site_of(params, traits);
+        traits.seed = 2;
+        const ColonySite other = site_of(params, traits);
+        double along = 0.0, own = 0.0;
+        for (std::size_t i = 0; i < one.places.size(); ++i) {
+            along += glm::distance(one.places[i].foot, other.places[i].foot);
+            own += glm::length(one.places[i].foot);
+        }
+        EXPECT_GT(along, 0.04 * own) << static_cast<int>(habit);
+    }
 }
 
 TEST(ColonyHabit, ATierStandsOnItsTrunk) {

@@ -281,6 +281,7 @@ TEST(Sweep, NormalsAgreeWithDifferencesOfTheSurfaceUnderAxialDeformationAndWaves
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             MushroomSpec order = order_of(id, 0.25 * seed, seed);
             order.params.deformation.imperfection = 0.0;
+            order.params.deformation.irregularity = 0.0;
             order.params.deformation.twist_deg = 45.0 * seed;
             order.params.deformation.taper = 0.2 * seed - 0.5;
             order.params.deformation.lean_deg = 5.0 * seed;

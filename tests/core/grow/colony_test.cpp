@@ -133,10 +133,13 @@ TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
             const Estimate e = estimate(spec, typical(spec), atlas());
             const Grown colony = grown(spec);
             const auto bytes = static_cast<double>(size_of(colony.glb));
-            EXPECT_GT(static_cast<double>(e.vertices), 0.8 * static_cast<double>(colony.vertices));
+            // The number of nodes of roots is random, and the mean of it is estimated.
+            const double least = rooted ? 0.5 : 0.8;
+            EXPECT_GT(static_cast<double>(e.vertices),
+                      least * static_cast<double>(colony.vertices));
             EXPECT_GT(static_cast<double>(e.triangles),
-                      0.8 * static_cast<double>(colony.triangles));
-            EXPECT_GT(static_cast<double>(e.bytes), 0.8 * bytes) << rooted << lod;
+                      least * static_cast<double>(colony.triangles));
+            EXPECT_GT(static_cast<double>(e.bytes), least * bytes) << rooted << lod;
             EXPECT_LT(static_cast<double>(e.bytes), 6.0 * bytes) << rooted << lod;
         }
 }

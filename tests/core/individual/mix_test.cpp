@@ -53,7 +53,7 @@ TEST(Mix, OfTwinsIsTheSpecies) {
         const Atlas twins = with_twin(id);
         for (const double age : {0.0, 0.45, 1.0}) {
             MushroomSpec spec = mix_of({{id, 300}, {"twin", 700}}, age, 5);
-            spec.params.variation = 1.0;
+            spec.params.variation = 0.0;  // draws belong to the names of species
             const Individual both = resolve(spec, twins);
             spec.mix = {{id, 1000}};
             const Individual lone = resolve(spec, twins);
@@ -108,6 +108,7 @@ TEST(Mix, OppositeAxesCancelAndTheStemKeepsItsLength) {
     for (Stage& stage : other.stages) bend(-0.15)(stage.model);
     const Atlas twins({.species = {dump(write(species)), dump(write(other))}});
     MushroomSpec spec = mix_of({{"mycena_sanguinolenta", 1000}});
+    spec.params.variation = 0.0;
     const Individual bent = resolve(spec, twins);
     spec.mix = {{"mycena_sanguinolenta", 500}, {"twin", 500}};
     const Individual straight = resolve(spec, twins);
@@ -142,6 +143,7 @@ TEST(Mix, TheWidthOfARingIsTheWeightedSum) {
         model.ring = {0.2, 0.0, 0.0, 0.01, 1.0};
     });
     MushroomSpec spec = order_of("amanita_muscaria");
+    spec.params.variation = 0.0;
     const Individual whole = resolve(spec, twins);
     ASSERT_GT(whole.ring.width, 0.0);
     for (const int weight : {1, 500, 900, 999}) {

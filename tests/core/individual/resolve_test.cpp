@@ -11,6 +11,7 @@
 
 #include "core/individual/proportion.h"
 #include "core/params/canonical.h"
+#include "core/silhouette/weights.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -165,6 +166,9 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
             EXPECT_LE(d.bend_deg, t.bend_deg + spread.bend_deg);
             EXPECT_LE(d.lean_deg, t.lean_deg + spread.lean_deg);
             EXPECT_LE(d.imperfection, t.imperfection + spread.imperfection);
+            // A draw from 0.6 to 1, and 0.8 of it at age 0.6.
+            EXPECT_LE(d.irregularity, t.irregularity + 0.8 * spread.irregularity + 1e-12);
+            EXPECT_GE(d.irregularity, t.irregularity + 0.48 * spread.irregularity - 1e-12);
             EXPECT_GE(d.bend_deg, 0.0);
             EXPECT_EQ(d.twist_deg, t.twist_deg);
         }
@@ -174,6 +178,47 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
             EXPECT_LT(least_length, 1.0 / reach);
         }
     }
+}
+
+TEST(Resolve, OneSeedIsAnotherIndividualInEachSpecies) {
+    // The draws of two species for as many seeds are not correlated: their lightness, whose spread
+    // is divided out, would be the same draw otherwise.
+    const std::vector<std::string> ids{"amanita_muscaria", "boletus_edulis", "russula_emetica",
+                                       "coprinus_comatus"};
+    const auto draw = [](const std::string& id, std::uint32_t seed) {
+        return std::log(resolved(order_of(id, 0.6, seed)).lightness) /
+               atlas().find(id)->species.spread.lightness;
+    };
+    constexpr std::uint32_t seeds = 64;
+    for (std::size_t i = 1; i < ids.size(); ++i) {
+        double product = 0.0, one = 0.0, other = 0.0;
+        for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+            const double a = draw(ids[0], seed), b = draw(ids[i], seed);
+            product += a * b;
+            one += a * a;
+            other += b * b;
+        }
+        EXPECT_LT(std::abs(product), 0.4 * std::sqrt(one * other)) << ids[i];
+    }
+}
+
+TEST(Resolve, TheDrawsOfAMixAreTheMeansOfThoseOfItsSpecies) {
+    const auto irregularity = [](const Mix& mix, std::uint32_t seed) {
+        MushroomSpec spec;
+        spec.mix = mix;
+        spec.params.seed = seed;
+        return resolved(spec).model.deformation.irregularity;
+    };
+    // Two species of one spread.
+    const std::string a = "russula_emetica", b = "boletus_edulis";
+    ASSERT_EQ(atlas().find(a)->species.spread.irregularity,
+              atlas().find(b)->species.spread.irregularity);
+    const auto weights = eased_weights({0.25, 0.75});
+    for (std::uint32_t seed = 1; seed <= 8; ++seed)
+        EXPECT_NEAR(irregularity({{a, 250}, {b, 750}}, seed),
+                    weights[0] * irregularity({{a, 1000}}, seed) +
+                        weights[1] * irregularity({{b, 1000}}, seed),
+                    1e-12);
 }
 
 TEST(Resolve, SizeScalesUniformly) {
