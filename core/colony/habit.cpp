@@ -22,9 +22,9 @@ constexpr double natural_lean = 0.08;
 
 /// Tufts: distance of caps, in cap radii, and of stem bases, in stem radii, each per square root of
 /// their number; lean of stems, in their heights; how far all bend towards the light and each aside,
-/// in heights; how much lower the outermost stand.
-constexpr double tuft_top = 0.85, tuft_foot = 0.8, tuft_lean = 0.9, tuft_light = 0.1,
-                 tuft_aside = 0.08, tuft_dome = 0.2;
+/// in heights; how much lower the outermost stand; how deep the bases are, in stem radii.
+constexpr double tuft_top = 0.7, tuft_foot = 0.8, tuft_lean = 0.7, tuft_light = 0.1,
+                 tuft_aside = 0.08, tuft_dome = 0.2, tuft_depth = 1.6;
 /// Half axes of the outline of a tuft are this factor and its inverse.
 constexpr double tuft_oval = 1.15;
 
@@ -109,12 +109,11 @@ class Layout {
             // Young ones are everywhere, and most at the outside.
             ColonyPlace one = place({}, 0.4 * share + 0.6 * young, outwards, random);
             one.radius *= small;
-            double foot = foot_spread * crowd * ring * pressed;
+            const double foot = foot_spread * crowd * ring * pressed;
             glm::dvec3 from = outwards;
             if (traits_.capped) {
                 const double tall = one.rise.y * (1.0 + 0.5 * tuft_dome - tuft_dome * share);
                 const double lean = std::min(std::max(top - foot, 0.0), tuft_lean * tall);
-                foot = std::max(foot, top - lean);
                 // Stems of a tuft start at a slant and turn upwards, none quite straight out.
                 const glm::dvec3 across(-outwards.z, 0.0, outwards.x);
                 from = glm::normalize(outwards + 0.4 * turned * across);
@@ -123,6 +122,8 @@ class Layout {
                              tall * (tuft_light * light + tuft_aside * aside * across);
             }
             one.foot = foot * from;
+            // No slanting base shows its end above the ground.
+            if (traits_.capped) one.foot -= tuft_depth * one.radius * vertical;
             site.places.push_back(one);
         }
         return site;

@@ -308,8 +308,10 @@ std::vector<Sway> sway_of(const ColonySkin& skin, const ColonySite& site,
         const ColonyMember& member = members[skin.stems[i] - 1];
         const ColonyPlace& place = site.places[member.place];
         const double length = stem_length(member);
-        // What is within two radii of the foot belongs to the root.
-        const double rigid = std::min(2.0 * place.radius, 0.5 * length);
+        // What is within two radii of the foot belongs to the root, and what is in the ground; no
+        // stem slants there by more than 60 degrees.
+        const double rigid =
+            std::min(2.0 * (place.radius + std::max(-place.foot.y, 0.0)), 0.5 * length);
         const double along =
             glm::dot(glm::dvec3(skin.mesh.positions[i]) - place.foot, member.rise + member.swing) /
             length;
