@@ -325,8 +325,12 @@ void resolve_swept(Individual& individual, const MushroomSpec& spec,
 
     // Variation bends an individual only as far as its own stem permits; a requested bend, or that
     // of a custom model, is checked by core/geometry instead.
-    const double irregular =
-        requested.deformation.irregularity.value_or(individual.model.deformation.irregularity);
+    DeformationOf<Plain>& deformation = individual.model.deformation;
+    deformation.irregularity =
+        std::min(1.0, deformation.irregularity + draws.irregularity * spread.irregularity *
+                                                     std::min(1.0, 2.0 * variation) *
+                                                     (0.5 + 0.5 * requested.age));
+    const double irregular = requested.deformation.irregularity.value_or(deformation.irregularity);
     const double slender =
         std::max(individual.stem_top - individual.stem_base, 1e-4) /
         (greatest_radius(individual.outline.stem) * (1.0 + widening_by_irregularity * irregular));
@@ -334,7 +338,6 @@ void resolve_swept(Individual& individual, const MushroomSpec& spec,
     individual.azimuth = fan_of(sources);
     individual.lobes = lobes_of(sources);
     individual.reliefs = reliefs_of(sources);
-    DeformationOf<Plain>& deformation = individual.model.deformation;
     if (!spec.model) {
         const double fold = individual.axis.greatest_turn() / slender;
         if (fold > most_natural_fold)
@@ -444,11 +447,6 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
 
     const Draws draws = draws_of(requested.seed, sources);
     const double variation = requested.variation;
-    if (!sources.front().is_branched())
-        model.deformation.irregularity =
-            std::min(1.0, model.deformation.irregularity +
-                              draws.irregularity * spread.irregularity *
-                                  std::min(1.0, 2.0 * variation) * (0.5 + 0.5 * requested.age));
     if (sources.front().is_branched())
         resolve_branched(individual, spec, sources, draws, spread);
     else
