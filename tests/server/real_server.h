@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/paths.h"
+
 namespace sporeprint::server {
 
 /// A running server process; stopped by the destructor.
@@ -47,7 +49,7 @@ class RealServer {
             ::close(out[1]);
             if (!log_.empty())
                 ::dup2(::open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-            ::execv(SPOREPRINT_PROGRAM, const_cast<char* const*>(arguments.data()));
+            ::execv(server_program(), const_cast<char* const*>(arguments.data()));
             ::_exit(127);
         }
         ::close(out[1]);

@@ -10,6 +10,7 @@
 
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
+#include "tests/support/paths.h"
 
 namespace sporeprint::server::warm_test {
 namespace {
@@ -116,7 +117,7 @@ TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndStopsOnSigterm) {
     const pid_t pid = ::fork();
     if (pid == 0) {
         ::dup2(::open((folder / "output").c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
-        ::execl(SPOREPRINT_PROGRAM, "sporeprint", "--port", std::to_string(port).c_str(), "--warm",
+        ::execl(server_program(), "sporeprint", "--port", std::to_string(port).c_str(), "--warm",
                 (folder / "list").c_str(), "--log-level", "off", static_cast<char*>(nullptr));
         ::_exit(127);
     }

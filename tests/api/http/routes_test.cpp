@@ -10,6 +10,7 @@
 
 #include "api/http/query.h"
 #include "api/routes.h"
+#include "tests/support/paths.h"
 
 namespace sporeprint::api::http_routes_test {
 namespace {
@@ -91,7 +92,7 @@ TEST(Routes, EachHasAHandlerADocumentOrTheServer) {
 // Adding a product touches its own files and one row of routes.cpp.
 TEST(Routes, NoOtherFileNamesAProduct) {
     namespace fs = std::filesystem;
-    const fs::path api = fs::path(SPOREPRINT_SOURCE) / "api";
+    const fs::path api = fs::path(source_folder()) / "api";
     std::size_t products = 0;
     for (const RouteGroup& group : route_table().groups()) {
         if (std::none_of(group.routes.begin(), group.routes.end(), is_cached)) continue;
