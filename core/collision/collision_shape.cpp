@@ -95,12 +95,6 @@ std::vector<Mesh> sliced_hulls(const Triangles& part, int count) {
     return hulls;
 }
 
-double total_volume(std::span<const Mesh> hulls) {
-    double sum = 0.0;
-    for (const Mesh& hull : hulls) sum += volume(hull);
-    return sum;
-}
-
 /// Returns the middle of those positions whose height is in a share of the whole.
 glm::dvec3 middle_between(std::span<const glm::vec3> positions, float low, float high) {
     glm::dvec3 sum(0.0);
@@ -274,11 +268,6 @@ double shared_volume(const std::vector<CollisionShape>& shapes, std::span<const 
 }
 
 }  // namespace
-
-double filled_volume(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
-    return indices.empty() ? 0.0
-                           : total_volume(sliced_hulls({positions, indices}, reference_slices));
-}
 
 std::vector<CollisionShape> fitted_shapes(const std::string& part,
                                           std::span<const glm::vec3> positions,

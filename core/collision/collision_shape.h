@@ -48,13 +48,6 @@ inline constexpr int most_hull_corners = 114;
 /// counting points of a grid.
 [[nodiscard]] double overlap(const Capsule& capsule, const Mesh& convex);
 
-/// Returns the volume of the convex hulls of sixteen slices of equal height of triangles: about
-/// that of the solid with its hollows filled, cubic metres.
-///
-/// positions, indices  of a mesh, or of a part of it
-[[nodiscard]] double filled_volume(std::span<const glm::vec3> positions,
-                                   std::span<const std::uint32_t> indices);
-
 /// Returns solids that stand for triangles: as few slices of equal height, at most eight, as share
 /// least_shared with the convex hulls of sixteen, or else those that share most; each a capsule if
 /// one fits its convex hull within least_overlap, or else that hull with at most most_hull_corners

@@ -82,11 +82,6 @@ TEST(Overlap, IsOneForTheSameSolidAndNothingForSolidsApart) {
     EXPECT_EQ(overlap({{5.0, 0.0, 0.0}, {5.0, 1.0, 0.0}, 0.25}, convex_hull(points)), 0.0);
 }
 
-TEST(FilledVolume, OfAConeIsThatOfACone) {
-    const Mesh cone = turned(1.0F, 40, [](double y) { return 0.5 * (1.0 - y) + 1e-6; });
-    EXPECT_NEAR(filled_volume(cone.positions, cone.indices), pi * 0.25 / 3.0, 0.008);
-}
-
 TEST(FittedShapes, OfAStemAreOneCapsule) {
     const Mesh stem = turned(1.0F, 20, [](double) { return 0.08; });
     const std::vector<CollisionShape> shapes = fitted(stem);
