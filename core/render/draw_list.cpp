@@ -79,7 +79,7 @@ std::uint64_t DrawList::triangles() const {
     return sum;
 }
 
-DrawList draw_list(const GlbScene& scene, const Parallel& parallel) {
+DrawList draw_list(const GlbScene& scene, const Parallel& parallel, int side) {
     DrawList list;
     std::vector<bool> is_child(scene.nodes.size(), false);
     for (const GlbNode& node : scene.nodes)
@@ -97,15 +97,17 @@ DrawList draw_list(const GlbScene& scene, const Parallel& parallel) {
         DrawMaterial& to = list.materials[i];
         to.look = from.look;
         if (!from.images) continue;
-        const auto decode = [&](Texture& texture, ImageKind kind, Encoding encoding) {
+        const auto decode = [&](Texture& texture, ImageKind kind, Encoding encoding, int least) {
             const Slice& file = from.images->files[static_cast<std::size_t>(kind)];
-            tasks.emplace_back([&texture, &file, &from, encoding] {
-                texture = Texture({file.data(), file.size}, encoding, from.repeats_u);
+            tasks.emplace_back([&texture, &file, &from, encoding, least] {
+                texture = Texture({file.data(), file.size}, encoding, from.repeats_u, least);
             });
         };
-        decode(to.base_color, ImageKind::base_color, Encoding::srgb);
-        decode(to.normal, ImageKind::normal, Encoding::linear);
-        decode(to.orm, ImageKind::orm, Encoding::linear);
+        // Edges of colours are seen where two texels are nearer than two pixels; those of relief
+        // and roughness are not.
+        decode(to.base_color, ImageKind::base_color, Encoding::srgb, 2 * side);
+        decode(to.normal, ImageKind::normal, Encoding::linear, side);
+        decode(to.orm, ImageKind::orm, Encoding::linear, side);
     }
     parallel(tasks);
     return list;

@@ -47,7 +47,9 @@ struct DrawList {
 /// Returns all primitives of a scene that viewers show. It refers to the meshes of the scene.
 ///
 /// parallel  decodes the images
+/// side      of the picture, pixels: images are decoded no larger than it can show
 /// throws    GenerationError for a scene without triangles
-[[nodiscard]] DrawList draw_list(const GlbScene& scene, const Parallel& parallel);
+[[nodiscard]] DrawList draw_list(const GlbScene& scene, const Parallel& parallel,
+                                 int side = largest_upload_side);
 
 }  // namespace sporeprint::render

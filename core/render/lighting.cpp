@@ -6,6 +6,8 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
@@ -103,13 +105,17 @@ ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side)
     const float extent = std::max({right - left_, bottom - top_, 1e-6F});
     scale_ = static_cast<float>(side - 2) / extent;
     std::vector<SnappedCorner> corners;
+    // From the scene to texels and depths; its columns are images of the axes.
+    const glm::mat3 to_image =
+        glm::transpose(glm::mat3(right_ * scale_, up_ * -scale_, direction_));
+    const glm::vec3 origin(1.0F - left_ * scale_, 1.0F - top_ * scale_, 0.0F);
     for (const Draw& draw : list.draws) {
+        const glm::mat3 linear = to_image * draw.placement.linear;
+        const glm::vec3 moved = to_image * draw.placement.translation + origin;
         corners.resize(draw.mesh->positions.size());
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::vec3 at = draw.placement.point(draw.mesh->positions[i]);
-            corners[i] =
-                snapped({(glm::dot(at, right_) - left_) * scale_ + 1.0F,
-                         (-glm::dot(at, up_) - top_) * scale_ + 1.0F, glm::dot(at, direction_)});
+            const glm::vec3 at = linear * draw.mesh->positions[i] + moved;
+            corners[i] = snapped({at.x, at.y, at.z});
         }
         const std::vector<std::uint32_t>& indices = draw.mesh->indices;
         // Meshes are closed, so what stops light on one side leaves the mesh on the other. Depths

@@ -31,89 +31,115 @@ constexpr int samples = 2;
 /// Sides of shadow maps.
 constexpr int lamp_side = 256, surroundings_side = 128;
 
-/// Rows of pixels that are shaded by one task.
-constexpr int band = 16;
+/// Rows of pixels that are shaded by one task, and bands in which triangles are found.
+constexpr int band = 16, visible_bands = 4;
 
 /// What is in front at each sample.
 struct Visibility {
-    int width = 0, height = 0;          ///< in samples
-    std::vector<float> nearness;        ///< 1 / distance; 0 for nothing
-    std::vector<std::uint32_t> draw;    ///< index into the draw list
-    std::vector<std::uint32_t> corner;  ///< index of the triangle's first corner
+    int width = 0, height = 0;                 ///< in samples
+    std::vector<float> nearness;               ///< 1 / distance; 0 for nothing
+    std::vector<std::uint32_t> draw;           ///< index into the draw list
+    std::vector<std::uint32_t> corner;         ///< index of the triangle's first corner
+    std::vector<std::vector<glm::vec3>> seen;  ///< vertices of each draw in the axes of the camera
 
-    Visibility(int columns, int rows)
+    Visibility(int columns, int rows, std::size_t draws)
         : width(columns),
           height(rows),
           nearness(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F),
           draw(nearness.size()),
-          corner(nearness.size()) {}
+          corner(nearness.size()),
+          seen(draws) {}
 };
 
-Visibility visible(const DrawList& list, const Camera& camera, int columns, int rows) {
-    Visibility found(columns, rows);
-    const auto width = static_cast<float>(columns), height = static_cast<float>(rows);
-    std::vector<SnappedCorner> corners;
-    for (std::size_t d = 0; d < list.draws.size(); ++d) {
-        const Draw& draw = list.draws[d];
-        corners.resize(draw.mesh->positions.size());
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::vec3 p = camera.seen(draw.placement.point(draw.mesh->positions[i]));
-            const float nearness = 1.0F / p.z;  // the camera is outside of the scene
-            corners[i] =
-                snapped({(p.x * nearness / camera.tangent_x + 1.0F) * 0.5F * width,
-                         (1.0F - p.y * nearness / camera.tangent_y) * 0.5F * height, nearness});
-        }
-        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-            rasterize(corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]],
-                      columns, rows, [&](int x, int y, float nearness) {
-                          const auto at = static_cast<std::size_t>(y * columns + x);
-                          if (nearness <= found.nearness[at]) return;
-                          found.nearness[at] = nearness;
-                          found.draw[at] = static_cast<std::uint32_t>(d);
-                          found.corner[at] = static_cast<std::uint32_t>(i);
-                      });
+/// Returns vertices in the axes of a camera as corners in an image of samples.
+std::vector<SnappedCorner> corners_of(const std::vector<glm::vec3>& seen, const Camera& camera,
+                                      int columns, int rows) {
+    const float middle_x = 0.5F * static_cast<float>(columns),
+                middle_y = 0.5F * static_cast<float>(rows);
+    const float scale_x = middle_x / camera.tangent_x, scale_y = middle_y / camera.tangent_y;
+    std::vector<SnappedCorner> corners(seen.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const float nearness = 1.0F / seen[i].z;  // the camera is outside of the scene
+        corners[i] = snapped({middle_x + seen[i].x * nearness * scale_x,
+                              middle_y - seen[i].y * nearness * scale_y, nearness});
     }
+    return corners;
+}
+
+Visibility visible(const DrawList& list, const Camera& camera, int columns, int rows,
+                   const Parallel& parallel) {
+    Visibility found(columns, rows, list.draws.size());
+    std::vector<std::vector<SnappedCorner>> corners(list.draws.size());
+    std::vector<std::function<void()>> tasks;
+    for (std::size_t d = 0; d < corners.size(); ++d)
+        tasks.emplace_back([&, d] {
+            const Draw& draw = list.draws[d];
+            found.seen[d].reserve(draw.mesh->positions.size());
+            for (const glm::vec3& at : draw.mesh->positions)
+                found.seen[d].push_back(camera.seen(draw.placement.point(at)));
+            corners[d] = corners_of(found.seen[d], camera, columns, rows);
+        });
+    parallel(tasks);
+    tasks.clear();
+    for (int part = 0; part < visible_bands; ++part)
+        tasks.emplace_back(
+            [&, from = rows * part / visible_bands, to = rows * (part + 1) / visible_bands] {
+                for (std::size_t d = 0; d < corners.size(); ++d) {
+                    const std::vector<SnappedCorner>& at = corners[d];
+                    const std::vector<std::uint32_t>& indices = list.draws[d].mesh->indices;
+                    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+                        rasterize(
+                            at[indices[i]], at[indices[i + 1]], at[indices[i + 2]], columns, to,
+                            [&](int x, int y, float nearness) {
+                                const auto sample = static_cast<std::size_t>(y * columns + x);
+                                if (nearness <= found.nearness[sample]) return;
+                                found.nearness[sample] = nearness;
+                                found.draw[sample] = static_cast<std::uint32_t>(d);
+                                found.corner[sample] = static_cast<std::uint32_t>(i);
+                            },
+                            from);
+                }
+            });
+    parallel(tasks);
     return found;
 }
 
 /// A triangle ready to be sampled: its corners in the axes of the camera and their attributes.
 class Facet {
   public:
-    Facet(const DrawList& list, const Camera& camera, std::uint32_t draw, std::uint32_t corner,
-          const Visibility& size)
-        : draw_(&list.draws[draw]), material_(&list.materials[draw_->material]) {
-        const Mesh& mesh = *draw_->mesh;
-        std::array<glm::vec3, 3> seen;
+    Facet(const DrawList& list, const Visibility& visibility, std::size_t sample)
+        : draw_(&list.draws[visibility.draw[sample]]), material_(&list.materials[draw_->material]) {
+        const std::vector<glm::vec3>& seen = visibility.seen[visibility.draw[sample]];
         for (std::size_t i = 0; i < 3; ++i) {
-            index_[i] = mesh.indices[corner + i];
-            seen[i] = camera.seen(draw_->placement.point(mesh.positions[index_[i]]));
+            index_[i] = draw_->mesh->indices[visibility.corner[sample] + i];
+            corners_[i] = seen[index_[i]];
         }
-        volumes_ = {glm::cross(seen[1], seen[2]), glm::cross(seen[2], seen[0]),
-                    glm::cross(seen[0], seen[1])};
-        if (material_->base_color.empty() || mesh.texture_coordinates.empty()) return;
-        // Texels between samples: the root of the ratio of areas.
-        const auto on_screen = [&](std::size_t i) {
-            return glm::vec2(
-                seen[i].x / seen[i].z / camera.tangent_x * 0.5F * static_cast<float>(size.width),
-                seen[i].y / seen[i].z / camera.tangent_y * 0.5F * static_cast<float>(size.height));
-        };
-        const auto area = [](const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-            return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-        };
-        const auto texture = [&](std::size_t i) { return mesh.texture_coordinates[index_[i]]; };
-        const float screen = area(on_screen(0), on_screen(1), on_screen(2));
-        const float image = area(texture(0), texture(1), texture(2));
-        const auto side = static_cast<float>(material_->base_color.side());
-        texels_ = side * std::sqrt(image / std::max(screen, 0.01F));
+        normal_ = glm::cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
     }
 
     [[nodiscard]] const MaterialLook& look() const { return material_->look; }
 
+    /// Returns true if a facet of the same draw goes on with the surface of this one without a fold
+    /// or a step: their normals are within 25 degrees, and where a ray meets the other, its
+    /// distance from the plane of this one, along the ray, is at most a share of that from the
+    /// camera.
+    [[nodiscard]] bool continues_with(const Facet& other, const glm::vec3& ray, float nearness,
+                                      float share) const {
+        if (draw_ != other.draw_) return false;
+        const float both = glm::dot(normal_, other.normal_);
+        if (both <= 0.0F || both * both < 0.82F * glm::dot(normal_, normal_) *
+                                              glm::dot(other.normal_, other.normal_))
+            return false;
+        const float facing = glm::dot(normal_, ray);
+        return std::abs(glm::dot(corners_[0], normal_) * nearness - facing) <=
+               share * std::abs(facing);
+    }
+
     /// Returns the weights of the corners where a ray of the camera meets the triangle.
     [[nodiscard]] glm::vec3 weights(const glm::vec3& ray) const {
-        const glm::vec3 w(glm::dot(ray, volumes_[0]), glm::dot(ray, volumes_[1]),
-                          glm::dot(ray, volumes_[2]));
+        const glm::vec3 w(glm::dot(ray, glm::cross(corners_[1], corners_[2])),
+                          glm::dot(ray, glm::cross(corners_[2], corners_[0])),
+                          glm::dot(ray, glm::cross(corners_[0], corners_[1])));
         const float sum = w.x + w.y + w.z;
         // A sample beside a triangle that is seen edge-on takes its nearest point.
         if (std::abs(sum) < 1e-30F) return glm::vec3(1.0F / 3.0F);
@@ -126,8 +152,10 @@ class Facet {
     }
 
     /// ambient  at the vertices
+    /// scale    pixels of a tangent of 1 in each direction
     [[nodiscard]] SurfacePoint surface(const glm::vec3& w, const glm::vec3& to_camera,
-                                       const std::vector<Ambient>& ambient) const {
+                                       const std::vector<Ambient>& ambient,
+                                       const glm::vec2& scale) const {
         const Mesh& mesh = *draw_->mesh;
         SurfacePoint found;
         found.at = point(w);
@@ -142,11 +170,12 @@ class Facet {
         found.smooth_normal = normal;
         if (!material_->base_color.empty() && !mesh.texture_coordinates.empty()) {
             const glm::vec2 uv = mixed(mesh.texture_coordinates, w);
-            found.base_color = material_->base_color.at(uv, texels_);
-            const glm::vec3 orm = material_->orm.at(uv, texels_);
+            const float texels = texels_of_pixel(scale);
+            found.base_color = material_->base_color.at(uv, texels);
+            const glm::vec3 orm = material_->orm.at(uv, texels);
             found.occlusion = orm.x;
             found.roughness = orm.y;
-            const glm::vec3 bump = material_->normal.at(uv, texels_) * 2.0F - glm::vec3(1.0F);
+            const glm::vec3 bump = material_->normal.at(uv, texels) * 2.0F - glm::vec3(1.0F);
             const glm::vec4 tangent = mixed(mesh.tangents, w);
             const glm::vec3 along = normalised(draw_->placement.linear * glm::vec3(tangent),
                                                glm::vec3(1.0F, 0.0F, 0.0F));
@@ -161,8 +190,22 @@ class Facet {
     const Draw* draw_;
     const DrawMaterial* material_;
     std::array<std::uint32_t, 3> index_{};
-    std::array<glm::vec3, 3> volumes_{};
-    float texels_ = 1.0F;
+    std::array<glm::vec3, 3> corners_{};  ///< in the axes of the camera
+    glm::vec3 normal_{0.0F};              ///< of any length, in the axes of the camera
+
+    /// Returns the texels between two pixels: the root of the ratio of areas.
+    [[nodiscard]] float texels_of_pixel(const glm::vec2& scale) const {
+        const auto area = [](const auto& at) {
+            const glm::vec2 a = at(0), b = at(1) - a, c = at(2) - a;
+            return std::abs(b.x * c.y - b.y * c.x);
+        };
+        const float screen = area(
+            [&](std::size_t i) { return glm::vec2(corners_[i]) * scale * (1.0F / corners_[i].z); });
+        const float image =
+            area([&](std::size_t i) { return draw_->mesh->texture_coordinates[index_[i]]; });
+        const auto side = static_cast<float>(material_->base_color.side());
+        return side * std::sqrt(image / std::max(screen, 0.0025F));
+    }
 
     template <class T>
     T mixed(const std::vector<T>& of, const glm::vec3& w) const {
@@ -271,7 +314,10 @@ class Drawing {
           lamp_shadows_(shadow_maps(list, lights_.lamps, lamp_side, parallel)),
           shadows_(shadow_maps(list, lights_.surroundings, surroundings_side, parallel)),
           ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
-          visible_(visible(list, camera, params.width * samples, params.height * samples)) {
+          visible_(
+              visible(list, camera, params.width * samples, params.height * samples, parallel)),
+          scale_(glm::vec2(params.width, params.height) * 0.5F /
+                 glm::vec2(camera.tangent_x, camera.tangent_y)) {
         if (has_ground)
             ground_ = GroundShadow(
                 list.box,
@@ -311,12 +357,14 @@ class Drawing {
     std::vector<ShadowMap> lamp_shadows_, shadows_;
     std::vector<std::vector<Ambient>> ambient_;
     Visibility visible_;
+    glm::vec2 scale_;  ///< pixels of a tangent of 1 to the right and up
     GroundShadow ground_;
 
-    /// Returns the direction through the middle of a sample in the axes of the camera.
-    [[nodiscard]] glm::vec3 ray(float column, float row) const {
-        return camera_.ray({column / static_cast<float>(visible_.width),
-                            row / static_cast<float>(visible_.height)});
+    /// Returns the direction in the axes of the camera through a place, in samples from the upper
+    /// left corner.
+    [[nodiscard]] glm::vec3 ray(const glm::vec2& place) const {
+        return camera_.ray({place.x / static_cast<float>(visible_.width),
+                            place.y / static_cast<float>(visible_.height)});
     }
 
     /// Returns the darkness of the ground in a direction; 0 above the horizon.
@@ -335,62 +383,86 @@ class Drawing {
         if (!ground_.empty() && facet.point(weights).y < 0.0F) return std::nullopt;
         const glm::vec3 direction = camera_.in_scene(ray);
         const float length = std::sqrt(glm::dot(direction, direction));
-        return reflected(facet.surface(weights, direction * (-1.0F / length), ambient_[draw]),
-                         facet.look(), lamps, group);
+        return reflected(
+            facet.surface(weights, direction * (-1.0F / length), ambient_[draw], scale_),
+            facet.look(), lamps, group);
     }
 
+    [[nodiscard]] Facet facet_at(std::size_t sample) const { return {list_, visible_, sample}; }
+
+    /// Samples of a pixel that show one smooth surface: the middle of them stands for all.
+    struct Patch {
+        Facet facet;
+        std::uint32_t draw;
+        glm::vec2 sum{0.0F};  ///< of the places of its samples
+        float samples = 0.0F;
+
+        Patch(const Facet& first, std::uint32_t of) : facet(first), draw(of) {}
+    };
+
     [[nodiscard]] Pixel pixel(int x, int y) const {
-        constexpr std::size_t all = static_cast<std::size_t>(samples) * samples;
+        constexpr int all = samples * samples;
         std::array<std::size_t, all> at{};
         bool is_empty = true, is_one = true;
-        for (std::size_t i = 0; i < all; ++i) {
-            const int column = x * samples + static_cast<int>(i) % samples;
-            const int row = y * samples + static_cast<int>(i) / samples;
-            at[i] = static_cast<std::size_t>(row * visible_.width + column);
-            const bool shows = visible_.nearness[at[i]] > 0.0F;
+        for (int i = 0; i < all; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            at[k] = static_cast<std::size_t>((y * samples + i / samples) * visible_.width +
+                                             x * samples + i % samples);
+            const bool shows = visible_.nearness[at[k]] > 0.0F;
             is_empty = is_empty && !shows;
-            is_one = is_one && shows && visible_.draw[at[i]] == visible_.draw[at[0]] &&
-                     visible_.corner[at[i]] == visible_.corner[at[0]];
+            is_one = is_one && shows && visible_.draw[at[k]] == visible_.draw[at[0]] &&
+                     visible_.corner[at[k]] == visible_.corner[at[0]];
         }
-        const auto facet_at = [&](std::size_t i) {
-            return Facet(list_, camera_, visible_.draw[at[i]], visible_.corner[at[i]], visible_);
-        };
-        // Within one triangle, and on the ground, the middle of the pixel stands for all samples.
-        const glm::vec3 middle = ray(static_cast<float>(x * samples) + 0.5F * samples,
-                                     static_cast<float>(y * samples) + 0.5F * samples);
+        const glm::vec2 corner(static_cast<float>(x * samples), static_cast<float>(y * samples));
+        const glm::vec3 middle = ray(corner + 0.5F * samples);
         if (is_empty) return {glm::vec3(0.0F), 0.0F, shadow(camera_.in_scene(middle))};
-        if (is_one) {
-            const std::optional<glm::vec3> found = light(facet_at(0), visible_.draw[at[0]], middle,
-                                                         {lights_.lamps, lamp_shadows_, 1}, 0);
-            if (found) return {*found, 1.0F, 0.0F};
-            return {glm::vec3(0.0F), 0.0F, shadow(camera_.in_scene(middle))};
-        }
         Pixel sum;
-        std::optional<Facet> facet;
-        std::size_t of = 0;  // the sample whose facet it is
-        const Lamps lamps{lights_.lamps, lamp_shadows_, all};
-        for (std::size_t i = 0; i < all; ++i) {
-            const int column = x * samples + static_cast<int>(i) % samples;
-            const int row = y * samples + static_cast<int>(i) / samples;
-            const glm::vec3 through =
-                ray(static_cast<float>(column) + 0.5F, static_cast<float>(row) + 0.5F);
-            if (visible_.nearness[at[i]] > 0.0F) {
-                if (!facet || visible_.draw[at[i]] != visible_.draw[at[of]] ||
-                    visible_.corner[at[i]] != visible_.corner[at[of]]) {
-                    facet.emplace(facet_at(i));
-                    of = i;
-                }
-                if (const std::optional<glm::vec3> found =
-                        light(*facet, visible_.draw[at[i]], through, lamps, i)) {
-                    sum.light += *found;
-                    sum.surface += 1.0F;
-                    continue;
-                }
+        const auto add = [&](const Facet& facet, std::uint32_t draw, const glm::vec3& through,
+                             const Lamps& lamps, std::size_t group, float weight) {
+            if (const auto found = light(facet, draw, through, lamps, group)) {
+                sum.light += *found * weight;
+                sum.surface += weight;
+            } else {
+                sum.shadow += shadow(camera_.in_scene(through)) * weight;
             }
-            sum.shadow += shadow(camera_.in_scene(through));
+        };
+        if (is_one) {
+            add(facet_at(at[0]), visible_.draw[at[0]], middle, {lights_.lamps, lamp_shadows_, 1}, 0,
+                1.0F);
+            return sum;
         }
+
+        std::array<std::optional<Patch>, all> patches;
+        std::size_t count = 0;
+        // How far apart two points in a pixel are, as a share of their distance.
+        const float pixel = 2.0F * camera_.tangent_x / static_cast<float>(params_.width);
         constexpr float share = 1.0F / static_cast<float>(all);
-        return {sum.light * share, sum.surface * share, sum.shadow * share};
+        for (int i = 0; i < all; ++i) {
+            const std::size_t sample = at[static_cast<std::size_t>(i)];
+            const glm::vec2 place = corner + glm::vec2(static_cast<float>(i % samples) + 0.5F,
+                                                       static_cast<float>(i / samples) + 0.5F);
+            const float nearness = visible_.nearness[sample];
+            if (nearness <= 0.0F) {
+                sum.shadow += shadow(camera_.in_scene(ray(place))) * share;
+                continue;
+            }
+            const Facet facet = facet_at(sample);
+            std::size_t of = 0;
+            while (of < count &&
+                   !patches[of]->facet.continues_with(facet, ray(place), nearness, pixel))
+                ++of;
+            if (of == count) patches[count++].emplace(facet, visible_.draw[sample]);
+            patches[of]->sum += place;
+            patches[of]->samples += 1.0F;
+        }
+        // Patches share the lamps, so that a pixel at an edge costs little more than others.
+        const Lamps lamps{lights_.lamps, lamp_shadows_, count};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Patch& patch = *patches[i];
+            add(patch.facet, patch.draw, ray(patch.sum * (1.0F / patch.samples)), lamps, i,
+                patch.samples * share);
+        }
+        return sum;
     }
 
     void write(const Pixel& pixel, const SrgbTable& srgb, std::uint8_t* to) const {
@@ -425,7 +497,8 @@ std::size_t pictured_lights(const PictureParams& params, std::uint64_t triangles
 
 RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Parallel& parallel) {
     require_valid(params);
-    const render::DrawList list = render::draw_list(scene, parallel);
+    const render::DrawList list =
+        render::draw_list(scene, parallel, std::max(params.width, params.height));
     if (list.triangles() > most_pictured_triangles)
         throw Impossible("/lod", std::to_string(list.triangles()) +
                                      " triangles would be drawn; at most " +

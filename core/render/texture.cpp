@@ -6,7 +6,6 @@
 
 #include "core/math/elementary.h"
 #include "core/problems.h"
-#include "core/surface/codecs.h"
 
 namespace sporeprint::render {
 
@@ -35,9 +34,10 @@ Bytes halved(const Bytes& rgb, std::size_t side) {
 
 }  // namespace
 
-Texture::Texture(std::span<const std::uint8_t> file, Encoding encoding, bool repeats_u)
+Texture::Texture(std::span<const std::uint8_t> file, Encoding encoding, bool repeats_u,
+                 int least_side)
     : repeats_u_(repeats_u) {
-    Picture picture = decoded_picture(file, "/image");
+    Picture picture = decoded_smaller(file, "/image", least_side);
     if (picture.width != picture.height) throw GenerationError("an image of a material is square");
     for (std::size_t i = 0; i < light_.size(); ++i) {
         const double value = static_cast<double>(i) / 255.0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/surface/codecs.h"
 
 namespace sporeprint::render {
 
@@ -22,9 +23,11 @@ class Texture {
 
     /// Decodes a JPEG or WebP file.
     ///
-    /// repeats_u  coordinates beyond 0..1 repeat the image in u; in v they take its border
-    /// throws     GenerationError for an image that is not square
-    Texture(std::span<const std::uint8_t> file, Encoding encoding, bool repeats_u);
+    /// repeats_u   coordinates beyond 0..1 repeat the image in u; in v they take its border
+    /// least_side  texels that are needed at least: larger images may be made smaller
+    /// throws      GenerationError for an image that is not square
+    Texture(std::span<const std::uint8_t> file, Encoding encoding, bool repeats_u,
+            int least_side = largest_upload_side);
 
     /// Returns the colour at a texture coordinate, interpolated between four texels; linear, 0..1.
     ///

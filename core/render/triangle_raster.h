@@ -29,7 +29,7 @@ struct SnappedCorner {
 [[nodiscard]] inline SnappedCorner snapped(const Corner& corner) {
     const auto fixed = [](float v) {
         const float within = std::min(std::max(v, 0.0F), static_cast<float>(largest_raster_side));
-        return static_cast<std::int32_t>(std::floor(within * 16.0F + 0.5F)) - 8;
+        return static_cast<std::int32_t>(within * 16.0F + 0.5F) - 8;
     };
     return {fixed(corner.x), fixed(corner.y), corner.depth};
 }
@@ -39,13 +39,14 @@ struct SnappedCorner {
 /// belongs to one of them.
 ///
 /// width, height  of the image, at most largest_raster_side
+/// first_row      those above it are left out
 template <class Plot>
 void rasterize(const SnappedCorner& a, const SnappedCorner& b, const SnappedCorner& c, int width,
-               int height, Plot&& plot) {
+               int height, Plot&& plot, int first_row = 0) {
     const std::int32_t area = (c.x - a.x) * (b.y - a.y) - (c.y - a.y) * (b.x - a.x);
     if (area <= 0) return;
     const int first_x = std::max((std::min({a.x, b.x, c.x}) + 15) >> 4, 0);
-    const int first_y = std::max((std::min({a.y, b.y, c.y}) + 15) >> 4, 0);
+    const int first_y = std::max((std::min({a.y, b.y, c.y}) + 15) >> 4, first_row);
     const int last_x = std::min(std::max({a.x, b.x, c.x}) >> 4, width - 1);
     const int last_y = std::min(std::max({a.y, b.y, c.y}) >> 4, height - 1);
     if (first_x > last_x || first_y > last_y) return;

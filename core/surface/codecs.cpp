@@ -4,10 +4,14 @@
 #include <turbojpeg.h>
 #include <webp/decode.h>
 #include <webp/encode.h>
+#include <zlib.h>
 
+#include <algorithm>
+#include <csetjmp>
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "core/problems.h"
 
@@ -48,7 +52,9 @@ bool has_too_many_scans(std::span<const std::uint8_t> file) {
     return false;
 }
 
-Picture decoded_jpeg(std::span<const std::uint8_t> file, const std::string& path) {
+/// least_side  the file is decoded at the least scale at which no side is less; 0: at its own
+Picture decoded_jpeg(std::span<const std::uint8_t> file, const std::string& path,
+                     int least_side = 0) {
     const TurboHandle handle(tjInitDecompress());
     if (!handle) throw GenerationError("no JPEG decoder");
     int width = 0, height = 0, subsampling = 0, colours = 0;
@@ -57,10 +63,13 @@ Picture decoded_jpeg(std::span<const std::uint8_t> file, const std::string& path
         refuse(path, "not a readable JPEG file");
     check_size(width, height, path);
     if (has_too_many_scans(file)) refuse(path, "the JPEG file has too many scans");
-    Picture picture = empty_picture(width, height);
+    int scale = 1;
+    while (least_side > 0 && scale < 8 && std::min(width, height) / (2 * scale) >= least_side)
+        scale *= 2;
+    Picture picture = empty_picture((width + scale - 1) / scale, (height + scale - 1) / scale);
     const int flags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
     if (tjDecompress2(handle.get(), file.data(), static_cast<unsigned long>(file.size()),
-                      picture.rgb.data(), width, 0, height, TJPF_RGB, flags) != 0)
+                      picture.rgb.data(), picture.width, 0, picture.height, TJPF_RGB, flags) != 0)
         refuse(path, "not a readable JPEG file");
     return picture;
 }
@@ -168,19 +177,38 @@ Bytes webp_with_alpha(std::span<const std::uint8_t> rgba, int width, int height,
 }
 
 Bytes png(std::span<const std::uint8_t> rgba, int width, int height) {
-    png_image image;
-    std::memset(&image, 0, sizeof image);
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = PNG_FORMAT_RGBA;
-    // One filter and little compression: a third of the time for a tenth more bytes.
-    image.flags = PNG_IMAGE_FLAG_FAST;
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    Bytes file(size);
-    if (png_image_write_to_memory(&image, file.data(), &size, 0, rgba.data(), 0, nullptr) == 0)
-        throw GenerationError(std::string("PNG encoder: ") + image.message);
-    file.resize(size);
+    Bytes file;
+    std::vector<const std::uint8_t*> rows;
+    for (int y = 0; y < height; ++y)
+        rows.push_back(&rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 4]);
+    png_structp encoder = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = encoder == nullptr ? nullptr : png_create_info_struct(encoder);
+    const bool is_ready = info != nullptr;
+    // libpng reports errors by a jump to here, past no object that has a destructor.
+    if (!is_ready || setjmp(png_jmpbuf(encoder)) != 0) {
+        png_destroy_write_struct(&encoder, &info);
+        throw GenerationError("PNG encoder failed");
+    }
+    png_set_write_fn(
+        encoder, &file,
+        [](png_structp to, png_bytep bytes, png_size_t size) {
+            auto& all = *static_cast<Bytes*>(png_get_io_ptr(to));
+            all.insert(all.end(), bytes, bytes + size);
+        },
+        nullptr);
+    png_set_IHDR(encoder, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+                 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(encoder, info, PNG_sRGB_INTENT_RELATIVE);
+    // Differences of neighbours, and runs of equal ones: two thirds of the time of zlib's level 3
+    // without a filter, and a seventh less bytes.
+    png_set_filter(encoder, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    png_set_compression_level(encoder, 1);
+    png_set_compression_strategy(encoder, Z_RLE);
+    png_write_info(encoder, info);
+    png_write_image(encoder, const_cast<png_bytepp>(rows.data()));
+    png_write_end(encoder, nullptr);
+    png_destroy_write_struct(&encoder, &info);
     return file;
 }
 
@@ -223,6 +251,12 @@ Picture decoded_picture(std::span<const std::uint8_t> file, const std::string& p
     if (starts_with(file, "RIFF", 4) && starts_with(file, "WEBP", 4, 8))
         return decoded_webp(file, path);
     refuse(path, "neither a PNG, a JPEG nor a WebP file");
+}
+
+Picture decoded_smaller(std::span<const std::uint8_t> file, const std::string& path,
+                        int least_side) {
+    if (starts_with(file, "\xFF\xD8\xFF", 3)) return decoded_jpeg(file, path, least_side);
+    return decoded_picture(file, path);
 }
 
 }  // namespace sporeprint

@@ -47,6 +47,23 @@ TEST(Render, LightComesFromTheUpperLeft) {
     EXPECT_GT(pixel(image, 36, 28)[0], pixel(image, 62, 62)[0] + 60);
 }
 
+// Samples on triangles of one smooth surface are shaded once, whichever triangles they are on.
+TEST(Render, FinerTrianglesOfABallChangeItsPictureLittle) {
+    const Mesh coarse = ball(1.0F, {0.0F, 9.0F, 0.0F}, 96, 48);
+    const Mesh fine = ball(1.0F, {0.0F, 9.0F, 0.0F}, 480, 240);
+    const RgbaImage a = rendered(scene_of(coarse), square(96, View::front));
+    const RgbaImage b = rendered(scene_of(fine), square(96, View::front));
+    int count = 0;
+    double difference = 0.0;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+        if (a.rgba[i + 3] < 255 || b.rgba[i + 3] < 255) continue;
+        ++count;
+        difference += std::abs(a.rgba[i] - b.rgba[i]);
+    }
+    ASSERT_GT(count, 3000);
+    EXPECT_LT(difference / count, 1.5);
+}
+
 TEST(Render, TheGroundShowsTheShadowAndHidesWhatIsBelowIt) {
     const Mesh mesh = ball(1.0F, {0.0F, 0.9F, 0.0F});
     const RgbaImage on_ground = rendered(scene_of(mesh), square(96));

@@ -39,6 +39,23 @@ TEST(TriangleRaster, ASquareOfTwoTrianglesHasEachOfItsPixelsOnce) {
                 << x << ' ' << y;
 }
 
+TEST(TriangleRaster, BandsOfRowsHaveThePixelsOfTheWholeOnceEach) {
+    std::vector<int> whole(side * side, 0), banded(side * side, 0);
+    const Corner a{-3, 5}, b{30, 61}, c{60, 9};
+    add(whole, a, b, c);
+    for (const int from : {0, 16, 17, 48})
+        rasterize(
+            snapped(a), snapped(b), snapped(c), side,
+            from == 0    ? 16
+            : from == 16 ? 17
+            : from == 17 ? 48
+                         : side,
+            [&](int x, int y, float) { ++banded.at(static_cast<std::size_t>(y * side + x)); },
+            from);
+    EXPECT_GT(sum(whole), 1000);
+    EXPECT_EQ(whole, banded);
+}
+
 TEST(TriangleRaster, WhatFacesAwayOrHasNoAreaIsLeftOut) {
     std::vector<int> pixels(side * side, 0);
     add(pixels, {8, 8}, {40, 8}, {40, 24});

@@ -77,6 +77,21 @@ TEST(Codecs, JpegRoundTripsClosely) {
     for (std::size_t i = 0; i < rgb.size(); ++i) EXPECT_NEAR(picture.rgb[i], rgb[i], 6);
 }
 
+TEST(Codecs, AJpegIsDecodedSmallerWhileItsSidesSuffice) {
+    const Bytes file = jpeg(slope(128, 64), 128, 64, 95, Chroma::full);
+    for (const auto& [least, width] :
+         {std::pair{65, 128}, {33, 128}, {32, 64}, {16, 32}, {1, 16}}) {
+        const Picture picture = decoded_smaller(file, "/image", least);
+        ASSERT_EQ(picture.width, width) << least;
+        ASSERT_EQ(picture.height, width / 2);
+        const int x = width / 4, y = width / 8;  // a quarter of the way
+        const std::uint8_t* const pixel =
+            &picture.rgb.at(static_cast<std::size_t>(y * width + x) * 3);
+        EXPECT_NEAR(pixel[0], 40 + 150 / 4, 6);
+        EXPECT_NEAR(pixel[1], 60 + 120 / 4, 6);
+    }
+}
+
 TEST(Codecs, JpegIsTheSameEveryTime) {
     const Bytes rgb = slope(64, 64);
     EXPECT_TRUE(jpeg(rgb, 64, 64, 88, Chroma::halved) == jpeg(rgb, 64, 64, 88, Chroma::halved));
