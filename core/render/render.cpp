@@ -28,8 +28,14 @@ namespace {
 /// Samples of a pixel in each direction.
 constexpr int samples = 2;
 
-/// Sides of shadow maps.
-constexpr int lamp_side = 256, surroundings_side = 128;
+/// Returns true for a picture that does not resolve the edges of the shadows of single lights.
+bool is_small(const PictureParams& params) { return params.width * params.height <= 320 * 320; }
+
+/// Returns the side of the shadow maps of lamps, texels.
+int lamp_side(const PictureParams& params) { return is_small(params) ? 160 : 256; }
+
+/// Returns the side of the shadow maps of the surroundings, texels.
+int surroundings_side(const PictureParams& params) { return is_small(params) ? 80 : 128; }
 
 /// Rows of pixels that are shaded by one task, and bands in which triangles are found.
 constexpr int band = 16, visible_bands = 4;
@@ -311,8 +317,8 @@ class Drawing {
           camera_(camera),
           params_(params),
           lights_(studio_lights(camera.axes, detail_of_lights(params, list.triangles()))),
-          lamp_shadows_(shadow_maps(list, lights_.lamps, lamp_side, parallel)),
-          shadows_(shadow_maps(list, lights_.surroundings, surroundings_side, parallel)),
+          lamp_shadows_(shadow_maps(list, lights_.lamps, lamp_side(params), parallel)),
+          shadows_(shadow_maps(list, lights_.surroundings, surroundings_side(params), parallel)),
           ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
           visible_(
               visible(list, camera, params.width * samples, params.height * samples, parallel)),
@@ -326,9 +332,7 @@ class Drawing {
     }
 
     static int detail_of_lights(const PictureParams& params, std::uint64_t triangles) {
-        // In a small picture, the edges of the shadows of single lights are not resolved.
-        const bool is_small = params.width * params.height <= 320 * 320;
-        return triangles > 1'000'000 ? 4 : triangles > 250'000 || is_small ? 2 : 1;
+        return triangles > 1'000'000 ? 4 : triangles > 250'000 || is_small(params) ? 2 : 1;
     }
 
     /// Draws into an image at a place.
