@@ -65,6 +65,7 @@ struct ColonyParams {
     int distinct = 8;
     std::optional<Habit> habit;
     double age = 0.6;
+    double age_spread = 0.75;
     double size = 1.0;
     double cap_scale = 1.0;
     std::optional<RootsShown> roots;
@@ -76,6 +77,7 @@ struct ColonyParams {
     Textures textures = Textures::embedded;
     ImageShare share = ImageShare::individual;
     Variants variants = Variants::none;
+    Base base = Base::natural;
     FileOptions file;
     Instancing instancing = Instancing::nodes;
 
@@ -102,9 +104,15 @@ struct ColonyParams {
         visit(&P::age, Info{.name = "age",
                             .min = 0,
                             .max = 1,
-                            .doc = "Of the oldest: button (0), maturity (0.6), decay (1). Others "
-                                   "are down to half as old.",
+                            .doc = "Of the oldest: button (0), maturity (0.6), decay (1).",
                             .group = "individuals"});
+        visit(&P::age_spread, Info{.name = "age_spread",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How much younger the youngest is, for the age of the "
+                                          "oldest: all of one age (0), or some that have just "
+                                          "appeared (1).",
+                                   .group = "individuals"});
         Info size = info_of<M>("size");
         size.group = "individuals";
         visit(&P::size, size);
@@ -130,6 +138,7 @@ struct ColonyParams {
         visit(&P::textures, info_of<M>("textures"));
         visit(&P::share, share_info);
         visit(&P::variants, variants_info);
+        visit(&P::base, base_info);
         visit(&P::file, file_info);
         visit(&P::instancing,
               Info{.name = "instancing",

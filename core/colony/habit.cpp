@@ -47,13 +47,18 @@ glm::dvec3 horizontal(double angle) {
 class Layout {
   public:
     Layout(const ColonyParams& params, const ColonyTraits& traits, const ColonyRoots& growth,
-           const StemFit& fit)
+           const ColonyFits& fits)
         : params_(params),
           traits_(traits),
           growth_(growth),
-          cap_(fit.cap_radius * params.cap_scale *
-               (traits.capped ? growth.root_radius / fit.radius : 1.0)),
-          whole_height_(fit.height) {}
+          cap_(fits.oldest.cap_radius * params.cap_scale *
+               (traits.capped ? growth.root_radius / fits.oldest.radius : 1.0)),
+          whole_height_(fits.oldest.height) {
+        // Whole individuals have the size of their age by themselves.
+        if (!traits.capped) return;
+        young_height_ = std::min(fits.youngest.height / fits.oldest.height, 1.0);
+        young_radius_ = std::min(fits.youngest.radius / fits.oldest.radius, 1.0);
+    }
 
     /// Returns a place with the smaller stem of an individual at `share` of the way to the
     /// youngest.
@@ -65,9 +70,11 @@ class Layout {
         place.foot = foot;
         place.share = share;
         place.outwards = outwards;
-        place.radius = growth_.root_radius * (1.0 - 0.25 * share) * (1.0 + 0.1 * thick);
+        const auto grown = [&](double young) { return 1.0 - (1.0 - young) * share; };
+        place.radius = growth_.root_radius * grown(young_radius_) * (1.0 + 0.1 * thick);
         if (traits_.capped) {
-            place.rise = growth_.stem_height * (1.0 - 0.2 * share) * (1.0 + 0.12 * tall) * vertical;
+            place.rise =
+                growth_.stem_height * grown(young_height_) * (1.0 + 0.12 * tall) * vertical;
             place.swing =
                 growth_.stem_displacement * outwards + lean * place.rise.y * horizontal(aside);
         } else if (!traits_.lateral) {
@@ -271,6 +278,7 @@ class Layout {
     const ColonyTraits& traits_;
     const ColonyRoots& growth_;
     double cap_, whole_height_;
+    double young_height_ = 1.0, young_radius_ = 1.0;  ///< of the youngest, for those of the oldest
 };
 
 ColonySite rooted(const ColonyParams& params, const ColonyTraits& traits,
@@ -339,12 +347,12 @@ double trunk_radius(const ColonyParams& params, const StemFit& fit) {
 }
 
 ColonySite colony_site(const ColonyParams& params, const ColonyTraits& traits,
-                       const ColonyRoots& growth, const StemFit& fit) {
+                       const ColonyRoots& growth, const ColonyFits& fits) {
     if (traits.habit == Habit::rooted) return rooted(params, traits, growth);
-    const Layout layout(params, traits, growth, fit);
+    const Layout layout(params, traits, growth, fits);
     ColonySite site = traits.habit == Habit::tuft   ? layout.tuft()
                       : traits.habit == Habit::ring ? layout.ring()
-                      : traits.habit == Habit::tier ? layout.tier(trunk_radius(params, fit))
+                      : traits.habit == Habit::tier ? layout.tier(trunk_radius(params, fits.oldest))
                                                     : layout.troop();
     for (std::size_t i = 0; i < site.places.size(); ++i)
         site.places[i].number = static_cast<std::uint32_t>(i);

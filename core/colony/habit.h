@@ -51,17 +51,22 @@ struct ColonySite {
 /// from the radius of the cap.
 [[nodiscard]] double trunk_radius(const ColonyParams& params, const StemFit& fit);
 
+/// Dimensions of typical individuals of a colony, metres.
+struct ColonyFits {
+    StemFit oldest, youngest;
+};
+
 /// Returns the places of `params.count` individuals. In habit rooted their number is random (a
 /// Bernoulli trial for each node of the roots) and may be smaller; if there are more, `count` of
 /// them are selected, each with the same probability.
 ///
 /// growth  result of colony_growth()
-/// fit     dimensions of the mature individual, metres; its cap radius determines the spacing
+/// fits    of the oldest, whose cap radius determines the spacing, and of the youngest
 /// source  [Torres] for habit rooted: places, heights and radii are those of colony_skeleton(). The
 ///         other habits are ours, from field guides and the statistics of mapped fruit bodies
 ///         (Thomas processes of clusters, on arcs): tufts are fused at the base and bend towards the
 ///         light, troops stand in patches, rings in arcs, stems on a trunk turn upwards
 [[nodiscard]] ColonySite colony_site(const ColonyParams& params, const ColonyTraits& traits,
-                                     const ColonyRoots& growth, const StemFit& fit);
+                                     const ColonyRoots& growth, const ColonyFits& fits);
 
 }  // namespace sporeprint

@@ -64,8 +64,9 @@ MushroomSpec individual_spec(const ColonySpec& spec, int which) {
     own.mix = spec.mix;
     own.params.seed =
         Random(params.seed, purposes::colony_seeds, static_cast<std::uint32_t>(which)).bits();
-    own.params.age =
-        params.distinct > 1 ? params.age * (1.0 - 0.5 * which / (params.distinct - 1)) : params.age;
+    own.params.age = params.distinct > 1
+                         ? params.age * (1.0 - params.age_spread * which / (params.distinct - 1))
+                         : params.age;
     own.params.lod = cap_lod(params.lod);
     own.params.textures = params.textures;
     own.params.file = params.file;
@@ -127,9 +128,9 @@ void add_images(Estimate& e, const ColonySpec& spec) {
 }
 
 void add_solids(Estimate& e, const ColonySpec& spec) {
-    // A stem has one to six capsules.
+    // A stem has one to six capsules, those of the young ones fewer.
     const auto members = static_cast<std::uint64_t>(spec.params.count);
-    add_solid_bytes(e, static_cast<std::uint64_t>(spec.params.distinct), 3 * members,
+    add_solid_bytes(e, static_cast<std::uint64_t>(spec.params.distinct), 2 * members,
                     spec.params.file);
 }
 
@@ -453,12 +454,18 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
     return models;
 }
 
+/// Returns an individual of the age of one of the models, without its variation.
+Individual average_individual(const ColonySpec& spec, int which, const Atlas& atlas,
+                              const Caches& caches) {
+    MushroomSpec own = individual_spec(spec, which);
+    own.params.variation = 0.0;
+    return resolve(own, atlas, caches.morphs);
+}
+
 }  // namespace
 
 Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
-    MushroomSpec own = individual_spec(spec, 0);
-    own.params.variation = 0.0;
-    return resolve(own, atlas, caches.morphs);
+    return average_individual(spec, 0, atlas, caches);
 }
 
 ColonySpec at_level(ColonySpec spec, const Individual& typical, const Atlas& atlas) {
@@ -554,7 +561,9 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     throw_if_cancelled(execution);
 
     const ColonyRoots growth = growth_of(params, traits, fit);
-    const ColonySite site = colony_site(params, traits, growth, fit);
+    const Individual youngest =
+        average_individual(spec, params.distinct - 1, atlas, execution.caches);
+    const ColonySite site = colony_site(params, traits, growth, {fit, fit_of(youngest, traits)});
     colony.members = placed_members(site, models.models, params, traits);
     std::vector<Sway> sway;  // of each model at its top
     if (params.file.wind != WindFormat::none) {
@@ -628,6 +637,7 @@ MushroomSpec paint_mushroom_spec(const ColonySpec& spec) {
     own.params.texture_size = spec.params.texture_size;
     own.params.textures = spec.params.textures;
     own.params.variants = spec.params.variants;
+    own.params.base = spec.params.base;
     return own;
 }
 

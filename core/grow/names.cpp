@@ -176,6 +176,7 @@ std::string skin_name(const ColonySpec& spec) {
     painted.params.age = spec.params.age;
     painted.params.texture_size = spec.params.texture_size;
     painted.params.textures = spec.params.textures;
+    painted.params.base = spec.params.base;
     return level_name(product_name(painted) + "_colony_skin", spec.params.lod);
 }
 

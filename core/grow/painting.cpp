@@ -73,6 +73,7 @@ SpeciesPaint species_paint(const MushroomSpec& stepped, const Individual& indivi
     spec.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks use strain
     // One species without overrides, as in most requests, is the individual that is resolved
     // already.
+    spec.params.base = stepped.params.base;
     spec.params.lod = stepped.params.lod;
     spec.params.texture_size = stepped.params.texture_size;
     spec.params.textures = stepped.params.textures;
@@ -123,6 +124,19 @@ void keep_possible(T& overrides, const T& effective) {
     });
 }
 
+/// Returns the share of a stem's meridian that is below the ground.
+double buried_share(const SubCurve& stem) {
+    constexpr int steps = 64;
+    double below = stem.at(0.0).y;
+    if (below >= 0.0) return 0.0;
+    for (int i = 1; i <= steps; ++i) {
+        const double y = stem.at(static_cast<double>(i) / steps).y;
+        if (y >= 0.0) return (i - 1 + below / (below - y)) / steps;
+        below = y;
+    }
+    return 1.0;
+}
+
 std::string painting_key(const PaintParams& painting) {
     std::string key = "paint " + std::to_string(generator_version) + " ";
     canonical(painting, key);
@@ -144,6 +158,7 @@ SurfaceMetrics surface_metrics(const Individual& individual) {
     metrics.cap_radius = quantised_length(radius);
     metrics.stem_length = quantised_length(outline.stem.length());
     metrics.stem_radius = quantised_length(stem_radius);
+    metrics.stem_foot = quantised_length(buried_share(outline.stem) * outline.stem.length());
     metrics.hymenium_arc = quantised_length(0.0);
     if (!outline.hymenium.empty()) {
         metrics.hymenium_arc = quantised_length(outline.hymenium.length());
@@ -206,6 +221,10 @@ void set_painting(const MushroomParams& params, const SpeciesShare& part, const 
     painting.side = params.texture_size >> params.lod;
     painting.metrics = alone.metrics;
     painting.surface = model.surface;
+    if (params.base == Base::clean) {
+        painting.surface.stem.soil = painting.surface.stem.mycelium = 0.0;
+        painting.surface.stem.soil_colour = StemSurface{}.soil_colour;
+    }
     painting.hymenium = model.hymenium;
     // Parameters that shape blades but show in no image are reset, so that they cause no other key.
     const HymeniumOf<Plain> unshaped;

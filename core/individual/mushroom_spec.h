@@ -46,6 +46,7 @@ struct MushroomParams {
     Textures textures = Textures::embedded;
     ImageShare share = ImageShare::individual;
     Variants variants = Variants::none;
+    Base base = Base::natural;
     FileOptions file;
     DeformationOf<Maybe> deformation;
     OrnamentsOf<Maybe> ornaments;
@@ -78,6 +79,7 @@ struct MushroomParams {
         visit(&P::textures, textures_info);
         visit(&P::share, share_info);
         visit(&P::variants, variants_info);
+        visit(&P::base, base_info);
         visit(&P::file, file_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});

@@ -203,6 +203,9 @@ struct StemSurface {
     Colour base = {220, 200, 170};
     double base_stain = 0.2;
     Colour stain = {120, 90, 60};
+    double soil = 0.85;
+    Colour soil_colour = {72, 50, 30};
+    double mycelium = 0.25;
     double fibrils = 0.3;
     double bands = 0.0;
     Colour band_colour = {160, 130, 100};
@@ -222,6 +225,17 @@ struct StemSurface {
                                    .max = 1,
                                    .doc = "Share of the stem that is stained from the ground up."});
         visit(&S::stain, Info{.name = "stain", .doc = "Colour of the stain."});
+        visit(&S::soil, Info{.name = "soil",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "How much soil clings to the stem at the ground."});
+        visit(&S::soil_colour,
+              Info{.name = "soil_colour", .doc = "Colour of soil, humus or rotten wood."});
+        visit(&S::mycelium, Info{.name = "mycelium",
+                                 .min = 0,
+                                 .max = 1,
+                                 .doc = "How much white felt of the mycelium covers the foot of "
+                                        "the stem."});
         visit(&S::fibrils,
               Info{.name = "fibrils", .min = 0, .max = 1, .doc = "Strength of lengthwise fibres."});
         visit(&S::bands, Info{.name = "bands",

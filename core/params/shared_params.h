@@ -233,6 +233,25 @@ inline constexpr Info share_info{
         "and with them warts, scales and gills at the same places; the shapes still differ.",
     .group = "file"};
 
+/// What the foot of a stem shows.
+enum class Base { natural, clean };
+
+constexpr const char* name(Base base) {
+    switch (base) {
+        case Base::natural:
+            return "natural";
+        case Base::clean:
+            return "clean";
+    }
+    return nullptr;
+}
+
+inline constexpr Info base_info{
+    .name = "base",
+    .doc =
+        "natural: soil and the felt of the mycelium cling to the foot of the stem, as much as is "
+        "usual for the species; clean: as if it were washed."};
+
 inline constexpr Info variants_info{
     .name = "variants",
     .doc =

@@ -67,7 +67,7 @@ struct Quality {
 /// Qualities by ImageKind. WebP always halves the resolution of chroma, of which normals have most;
 /// roughness and occlusion stand lower qualities than colours.
 constexpr std::array<Quality, 3> qualities = {
-    {{88, Chroma::halved, 75}, {89, Chroma::full, 75}, {88, Chroma::halved, 60}}};
+    {{88, Chroma::halved, 75}, {89, Chroma::full, 68}, {88, Chroma::halved, 50}}};
 
 }  // namespace
 

@@ -15,6 +15,7 @@ struct SurfaceMetrics {
     int hymenium_inner = -230;
     int stem_length = -130;
     int stem_radius = -230;
+    int stem_foot = -600;
     int radial_strain = 0;
 
     static constexpr void fields(auto visit) {
@@ -43,6 +44,10 @@ struct SurfaceMetrics {
             &M::stem_radius,
             Info{
                 .name = "stem_radius", .min = -600, .max = 100, .doc = "Mean radius of the stem."});
+        visit(&M::stem_foot, Info{.name = "stem_foot",
+                                  .min = -600,
+                                  .max = 100,
+                                  .doc = "Meridian of the stem below the ground."});
         visit(&M::radial_strain,
               Info{.name = "radial_strain",
                    .min = 0,

@@ -84,7 +84,7 @@ struct PaintParams {
 ///          RGB images have the layout of swept_charts and are padded beyond every chart
 /// returns  base colour (sRGB), normal (+Y up, linear), and occlusion R, roughness G, metalness
 ///          B = 0. As JPEG: quality 88 and 4:2:0, 89 and 4:4:4, 88 and 4:2:0; as WebP: quality 75,
-///          75 and 60
+///          68 and 50
 /// throws   InvalidInput if an uploaded image cannot be read (path /surface/<part>/image) or the
 ///          side is invalid (path /side); what `parallel` throws, such as Cancelled
 /// cost     O(side^2)

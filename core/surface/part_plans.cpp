@@ -298,6 +298,15 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
         skin_plan(stem.skin, {circumference, circumference * round, circumference * along, true},
                   1.0, seeds<1>(params.seed, purposes::skin_grain)[0] + 0x51ED270BU);
     plan.base_stain = single(stem.base_stain);
+    plan.soil = single(stem.soil);
+    plan.soil_colour = light_of(stem.soil_colour);
+    plan.mycelium = single(stem.mycelium);
+    const double foot = std::min(length_of_step(params.metrics.stem_foot) / length, 1.0);
+    plan.foot = single(foot);
+    // Half a diameter high, but no more than a sixth of what is above the ground.
+    plan.soil_reach = single(std::max(std::min(0.5 / (pi * aspect), (1.0 - foot) / 6.0), 1e-4));
+    for (std::size_t i = 0; i < 2; ++i)
+        plan.clods[i] = resolvable(1.0 / (stem_clod_cells[i] * std::max(round, along)));
     plan.fibrils = single(stem.fibrils);
     const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};
     for (std::size_t i = 0; i < 3; ++i)

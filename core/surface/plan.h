@@ -200,8 +200,13 @@ struct StemPlan {
     float texel_round = 0.0F;
     /// Frequency factor of fine noise along a thin stem, whose texels are long.
     float stretch = 1.0F;
-    Light top, base, stain, band_colour, net_colour;
+    Light top, base, stain, band_colour, net_colour, soil_colour;
     float base_stain = 0.0F;
+    float soil = 0.0F;
+    float mycelium = 0.0F;
+    float foot = 0.0F;             ///< share of the stem below the ground
+    float soil_reach = 1.0F;       ///< share of the stem that soil reaches above the ground
+    std::array<float, 2> clods{};  ///< by octave, already limited to the texel resolution
     float fibrils = 0.0F;
     float bands = 0.0F;
     float net = 0.0F;
@@ -223,6 +228,7 @@ struct StemPlan {
 };
 
 inline constexpr std::array<int, 3> stem_bump_cells = {26, 83, 190};
+inline constexpr std::array<int, 2> stem_clod_cells = {44, 127};
 inline constexpr std::array<int, 3> stem_fibre_cells = {17, 46, 109};
 inline constexpr std::array<float, 3> stem_fibre_slender = {0.16F, 0.10F, 0.08F};
 inline constexpr std::array<float, 3> cap_bump_frequency = {21.0F, 52.0F, 118.0F};

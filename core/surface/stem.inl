@@ -123,6 +123,56 @@ HWY_INLINE void add_stem_stain(const StemPlan& plan, VF along, const VF* fields,
     texel.occlusion = texel.occlusion * (one - stain * set(0.12F));
 }
 
+/// Adds the felt of the mycelium at the foot, and soil: whole below the ground, in clods just above
+/// it, in crumbs up to twice as high.
+HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const VF* fields,
+                                Layers& texel) {
+    const VF one = set(1.0F);
+    const VF height = (along - set(plan.foot)) * set(1.0F / plan.soil_reach);
+    if (hn::AllTrue(Floats(), height >= set(3.5F))) return;
+    const VF length = along * set(plan.aspect);
+    const VF broad = fields[stem_broad];
+    const VF middle = fields[stem_middle];
+    VF clods[2] = {set(0.0F), set(0.0F)};
+    for (std::size_t octave = 0; octave < 2; ++octave) {
+        if (plan.clods[octave] <= 0.0F) continue;
+        const float n = static_cast<float>(stem_clod_cells[octave]);
+        clods[octave] = periodic_noise2(turn * set(n), length * set(n), stem_clod_cells[octave],
+                                        plan.seed[9 + octave]) *
+                        set(plan.clods[octave]);
+    }
+    if (plan.mycelium > 0.0F) {
+        const VF thread = periodic_noise2(turn * set(34.0F) + broad * set(0.8F), length * set(8.0F),
+                                          34, plan.seed[11]);
+        const VF near =
+            one - smooth(height + middle * set(0.6F) + broad * set(0.5F), 0.2F, 1.0F / 2.6F);
+        const VF felt =
+            smooth(thread * set(0.55F) + clods[1] * set(0.3F) + near * set(1.3F), 0.7F, 1.8F) *
+            near * set(plan.mycelium);
+        texel.colour = mix(texel.colour, Rgb{set(0.90F), set(0.88F), set(0.82F)}, felt);
+        texel.height = texel.height + felt * (set(0.0015F) + thread * set(0.0015F));
+        texel.roughness = mix(texel.roughness, set(0.95F), felt);
+    }
+    if (plan.soil > 0.0F) {
+        const VF level = height + broad * set(0.5F) + middle * set(0.6F) + clods[0] * set(0.7F);
+        const VF whole = one - smooth(level, -0.15F, 1.0F / 0.8F);
+        // Crumbs are fewer with height.
+        const VF crumb = smooth(
+            clods[1] * set(0.8F) + clods[0] * set(0.5F) - hn::Max(height, set(0.0F)) * set(0.22F),
+            0.16F, 5.0F);
+        // Where texels are too coarse for crumbs, their mean.
+        const VF thin = hn::Max(one - hn::Max(height, set(0.0F)) * set(0.6F), set(0.0F));
+        const VF seen = mix(set(0.15F) * thin * thin, crumb, set(plan.clods[1]));
+        const VF soil = hn::Max(whole, seen) * set(plan.soil);
+        texel.colour = mix(texel.colour, rgb(plan.soil_colour), soil);
+        texel.shade = texel.shade * (one + soil * (clods[1] * set(0.55F) + clods[0] * set(0.25F)));
+        texel.height =
+            texel.height + soil * (set(0.002F) + clods[0] * set(0.0035F) + clods[1] * set(0.001F));
+        texel.roughness = mix(texel.roughness, set(0.97F), soil);
+        texel.occlusion = texel.occlusion * (one - soil * set(0.18F));
+    }
+}
+
 /// Returns a texel of the stem. along: 0 at the ground, 1 at the top; turn: 0..1. Heights are in
 /// circumferences.
 HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* fields) {
@@ -169,6 +219,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     if (plan.gills > 0.0F) add_stem_gills(plan, along, turn, texel);
     if (plan.base_stain > 0.0F) add_stem_stain(plan, along, fields, fine, texel);
     if (plan.skin.shows) add_skin(plan.skin, grain, fields[stem_broad], one, texel);
+    if (plan.soil > 0.0F || plan.mycelium > 0.0F) add_stem_ground(plan, along, turn, fields, texel);
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)));
     out.height = texel.height;

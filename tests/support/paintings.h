@@ -22,6 +22,7 @@ inline PaintParams motley(HymeniumPattern pattern, int side = 256) {
     params.metrics.hymenium_inner = quantised_length(0.01);
     params.metrics.stem_length = quantised_length(0.10);
     params.metrics.stem_radius = quantised_length(0.01);
+    params.metrics.stem_foot = quantised_length(0.005);
     CapSurface& cap = params.surface.cap;
     cap.ramp = {{200, 22, 29}, {120, 70, 90}, {226, 71, 30}};
     cap.fibrils = 0.4;

@@ -23,7 +23,7 @@ ColonyTraits nature_of(Habit habit, bool capped = true) {
 }
 
 ColonySite site_of(const ColonyParams& params, const ColonyTraits& traits) {
-    return colony_site(params, traits, colony_growth(params, traits, fit), fit);
+    return colony_site(params, traits, colony_growth(params, traits, fit), {fit, fit});
 }
 
 TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
@@ -33,7 +33,7 @@ TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
     traits.seed = 7;
     const ColonyRoots growth = colony_growth(params, traits, fit);
     const ColonySkeleton source = colony_skeleton(growth, traits.seed);
-    const ColonySite site = colony_site(params, traits, growth, fit);
+    const ColonySite site = colony_site(params, traits, growth, {fit, fit});
     ASSERT_EQ(site.places.size(), source.stems.size());
     ASSERT_EQ(site.ground.nodes.size(), source.root_nodes);
     EXPECT_EQ(site.ground.segments.size() + 1, site.ground.nodes.size()) << "a tree";
@@ -94,6 +94,25 @@ TEST(ColonyHabit, EveryOtherHabitPlacesTheRequestedCount) {
                     EXPECT_EQ(place.rise != glm::dvec3(0.0), capped);
                 }
             }
+}
+
+// The youngest has half the height and a third of the radius of the oldest, the others what is between.
+TEST(ColonyHabit, YoungStemsAreAsLowAndThinAsTheYoungestIs) {
+    const StemFit young{fit.radius / 3.0, fit.height / 2.0, fit.length / 2.0, fit.cap_radius / 2.0};
+    for (const Habit habit : {Habit::troop, Habit::ring, Habit::tier}) {
+        ColonyParams params;
+        params.count = 60;
+        const ColonyTraits traits = nature_of(habit);
+        const ColonyRoots growth = colony_growth(params, traits, fit);
+        double youngest = 0.0;
+        for (const ColonyPlace& place : colony_site(params, traits, growth, {fit, young}).places) {
+            EXPECT_NEAR(place.radius / growth.root_radius, 1.0 - 2.0 / 3.0 * place.share, 0.13);
+            EXPECT_NEAR(place.at(1.0).y / growth.stem_height - place.foot.y / growth.stem_height,
+                        1.0 - 0.5 * place.share, 0.13);
+            youngest = std::max(youngest, place.share);
+        }
+        EXPECT_GT(youngest, 0.9);
+    }
 }
 
 TEST(ColonyHabit, ATuftRisesFromOneBaseAndLeansOut) {

@@ -195,6 +195,31 @@ TEST(Painting, LengthsAreThoseOfTheShapeAlone) {
     }
 }
 
+// The bulb of a fly agaric is sunk in the ground.
+TEST(Painting, TheFootIsWhatIsBelowTheGround) {
+    const auto foot = [](const std::string& id) {
+        const SurfaceMetrics metrics = surface_metrics(resolve(order_of(id, 0.6, 1), atlas()));
+        return length_of_step(metrics.stem_foot) / length_of_step(metrics.stem_length);
+    };
+    const double sunk = foot("amanita_muscaria");
+    EXPECT_GT(sunk, 0.02);
+    EXPECT_LT(sunk, 0.4);
+    const SubCurve stem = resolve(order_of("amanita_muscaria", 0.6, 1), atlas()).outline.stem;
+    EXPECT_NEAR(stem.at(sunk).y, 0.0, 0.04 * stem.length());
+}
+
+TEST(Painting, ACleanBaseHasNeitherSoilNorFelt) {
+    MushroomSpec spec = painted(order_of("amanita_muscaria", 0.6, 1));
+    const PaintParams natural = paint_spec_of(spec).at(0).painting;
+    EXPECT_GT(natural.surface.stem.soil, 0.0);
+    spec.params.base = Base::clean;
+    PaintParams clean = paint_spec_of(spec).at(0).painting;
+    EXPECT_EQ(clean.surface.stem.soil, 0.0);
+    EXPECT_EQ(clean.surface.stem.mycelium, 0.0);
+    clean.surface.stem = natural.surface.stem;
+    EXPECT_EQ(clean, natural);
+}
+
 TEST(Painting, TheOrderOfSpeciesDoesNotMatter) {
     const PaintSpec there = paint_spec_of(
         mixed({{"amanita_muscaria", 250}, {"boletus_edulis", 250}, {"russula_vinosa", 500}}));

@@ -109,7 +109,7 @@ TEST(Paint, WithoutReliefTheNormalsAreFlat) {
     params.side = 256;
     params.surface.cap.bumps = params.surface.cap.skin.strength = 0.0;
     params.surface.stem.bumps = params.surface.stem.skin.strength = 0.0;
-    params.surface.stem.fibrils = 0.0;
+    params.surface.stem.fibrils = params.surface.stem.soil = params.surface.stem.mycelium = 0.0;
     const RawImages images = paint_raw(params);
     for (int y = 0; y < 128; ++y)
         for (int x = 0; x < 128; ++x) {
@@ -224,7 +224,7 @@ TEST(Paint, EveryColourChangesTheImages) {
     PaintParams walked = worn(HymeniumPattern::smooth);
     std::vector<std::string> names;
     for_each_colour(walked, "", [&](const std::string& name, Colour&) { names.push_back(name); });
-    EXPECT_EQ(names.size(), 16U);
+    EXPECT_EQ(names.size(), 17U);
     for (const std::string& wanted : names) {
         bool changed = false;
         for (std::size_t p = 0; p < 4 && !changed; ++p) {
@@ -327,6 +327,40 @@ TEST(Paint, TheStemClosesWithoutASeam) {
     EXPECT_LE(step(first + rows - 1, first), 2.0 * usual);
     // Beyond the seam the strip continues with its other end.
     EXPECT_LE(step(first - 2, first - 2 + rows), 2.0 * usual);
+}
+
+TEST(Paint, SoilAndFeltClingToTheFootOfTheStemAlone) {
+    PaintParams params = motley(HymeniumPattern::gills, 512);
+    params.surface.stem.top = params.surface.stem.base = {200, 60, 60};
+    params.surface.stem.base_stain = params.surface.stem.net = params.surface.stem.bands = 0.0;
+    params.metrics.stem_foot = quantised_length(0.01);  // a tenth of the stem
+    params.surface.stem.soil = params.surface.stem.mycelium = 0.0;
+    const RawImages clean = paint_raw(params);
+    params.surface.stem.soil = 1.0;
+    const RawImages dirty = paint_raw(params);
+    params.surface.stem.soil = 0.0;
+    params.surface.stem.mycelium = 1.0;
+    const RawImages felted = paint_raw(params);
+    const Chart& stem = swept_charts[static_cast<std::size_t>(Part::stem)];
+    const auto mean_green = [&](const RawImages& images, double along) {
+        double sum = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            const TexturePoint at = strip_point(stem, along, i / 200.0);
+            sum += texel(images, ImageKind::base_color, static_cast<int>(at.u * 512.0),
+                         static_cast<int>(at.v * 512.0))
+                       .g;
+        }
+        return sum / 200.0;
+    };
+    // Below the ground the stem has the colour of soil, which is less green than 60 of 255, and
+    // its felt, where there is no soil, nearly that of felt.
+    EXPECT_NEAR(mean_green(dirty, 0.03), params.surface.stem.soil_colour.g, 12.0);
+    EXPECT_GT(mean_green(felted, 0.12), mean_green(clean, 0.12) + 50.0);
+    // Soil thins out upwards, and ends within four half diameters.
+    EXPECT_LT(mean_green(dirty, 0.12), mean_green(dirty, 0.25));
+    for (const RawImages* const images : {&dirty, &felted})
+        for (const double along : {0.47, 0.7, 0.95})
+            EXPECT_EQ(mean_green(*images, along), mean_green(clean, along)) << along;
 }
 
 TEST(Paint, BleedsBeyondEveryRim) {
