@@ -77,7 +77,7 @@ class MirroredRepeat {
     double length_ = 1.0;
 };
 
-void add_texture_coordinates(SkinnedSkeleton& made, double painted_length) {
+void add_texture_coordinates(SkinnedSkeleton& made, const SkinOptions& options) {
     Mesh& mesh = made.mesh;
     const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
     mesh.texture_coordinates.resize(mesh.positions.size());
@@ -110,13 +110,14 @@ void add_texture_coordinates(SkinnedSkeleton& made, double painted_length) {
             sum_ends += along;
         }
         const bool upwards = begins * sum_ends <= ends * sum_begins;
-        const MirroredRepeat root(rings, painted_length);
+        const MirroredRepeat root(rings, options.painted_length);
         for (std::size_t i = first; i < last; ++i) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
             const double share =
                 stem ? (upwards ? along / length : 1.0 - along / length) : root.at(along);
             const TexturePoint at =
-                strip_point(chart, share, std::min(std::max(made.places[i].x, 0.0), 1.0));
+                strip_point(chart, options.painted_from + (1.0 - options.painted_from) * share,
+                            std::min(std::max(made.places[i].x, 0.0), 1.0));
             mesh.texture_coordinates[i] = {at.u, at.v};
         }
     }
@@ -230,7 +231,7 @@ ColonySkin colony_skin(const Skeleton& segments, const SkinOptions& options) {
     SkinnedSkeleton made =
         skinned(cleaned(segments).skeleton, skin_levels(segments.nodes.size(), options.lod),
                 options.textured ? SkinPlaces::included : SkinPlaces::omitted);
-    if (options.textured) add_texture_coordinates(made, options.painted_length);
+    if (options.textured) add_texture_coordinates(made, options);
     order_for_vertex_cache(made.mesh);
     return {std::move(made.mesh), std::move(made.labels)};
 }

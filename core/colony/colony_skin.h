@@ -36,6 +36,7 @@ struct SkinOptions {
     int lod = 0;
     double painted_length = 0.1;  ///< length of root that one image covers, metres at size 1
     bool textured = true;         ///< makes texture coordinates and tangents
+    double painted_from = 0.0;    ///< share of the image, from its base, that shows what is buried
 };
 
 /// The surface of the skeleton of a colony.
@@ -46,7 +47,7 @@ struct ColonySkin {
 };
 
 /// Cleans a skeleton and returns its surface. The texture coordinates of a stem cover
-/// the whole image of one stem, from ground to top. Along a root the image is repeated once per
+/// the image of one stem, from ground to top. Along a root the image is repeated once per
 /// painted_length with mirrored repeat; it is mirrored at the ring of vertices nearest to the end
 /// of each image.
 ///

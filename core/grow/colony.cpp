@@ -553,6 +553,7 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     const ColonyTraits traits = colony_traits(spec, atlas);
     StemFit fit = fit_of(typical, traits);
     const double painted_length = fit.length;
+    const double painted_from = typical.is_branched() ? 0.0 : buried_share(typical.outline.stem);
 
     execution.observer(Step::build);
     Colony colony;
@@ -577,7 +578,8 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
         at.lod = lod;
         const Skeleton skeleton =
             colony_skeleton(site, colony.members, at, traits, segments_of(growth, lod));
-        ColonySkin made = colony_skin(skeleton, {lod, painted_length, textured(spec)});
+        ColonySkin made =
+            colony_skin(skeleton, {lod, painted_length, textured(spec), painted_from});
         if (!sway.empty()) made.mesh.sway = sway_of(made, site, colony.members, sway);
         for (glm::vec3& place : made.mesh.positions) place *= static_cast<float>(params.size);
         return std::move(made.mesh);

@@ -124,19 +124,6 @@ void keep_possible(T& overrides, const T& effective) {
     });
 }
 
-/// Returns the share of a stem's meridian that is below the ground.
-double buried_share(const SubCurve& stem) {
-    constexpr int steps = 64;
-    double below = stem.at(0.0).y;
-    if (below >= 0.0) return 0.0;
-    for (int i = 1; i <= steps; ++i) {
-        const double y = stem.at(static_cast<double>(i) / steps).y;
-        if (y >= 0.0) return (i - 1 + below / (below - y)) / steps;
-        below = y;
-    }
-    return 1.0;
-}
-
 std::string painting_key(const PaintParams& painting) {
     std::string key = "paint " + std::to_string(generator_version) + " ";
     canonical(painting, key);

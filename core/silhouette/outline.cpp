@@ -252,6 +252,18 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     return samples;
 }
 
+double buried_share(const SubCurve& stem) {
+    constexpr int steps = 64;
+    double below = stem.at(0.0).y;
+    if (below >= 0.0) return 0.0;
+    for (int i = 1; i <= steps; ++i) {
+        const double y = stem.at(static_cast<double>(i) / steps).y;
+        if (y >= 0.0) return (i - 1 + below / (below - y)) / steps;
+        below = y;
+    }
+    return 1.0;
+}
+
 Outline::Outline(const OutlineNodes& nodes) : stem(nodes.stem, {0.0, 1.0}) {
     const OutlineSample end = stem.at(1.0);
     const glm::dvec2 onwards(end.tangent_r, end.tangent_y);

@@ -114,6 +114,9 @@ class SubCurve {
     double length_ = 0.0;
 };
 
+/// Returns the share of the arc length of a stem, from its base, that is below y = 0, to 1/64 of it.
+[[nodiscard]] double buried_share(const SubCurve& stem);
+
 /// The curve C of [Desbenoit2004] as three smooth sub-curves, base to apex.
 struct Outline {
     SubCurve stem, hymenium, cap;

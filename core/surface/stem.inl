@@ -155,7 +155,7 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     }
     if (plan.soil > 0.0F) {
         const VF level = height + broad * set(0.5F) + middle * set(0.6F) + clods[0] * set(0.7F);
-        const VF whole = one - smooth(level, -0.15F, 1.0F / 0.8F);
+        const VF whole = one - smooth(level, 0.25F, 1.0F / 0.9F);
         // Crumbs are fewer with height.
         const VF crumb = smooth(
             clods[1] * set(0.8F) + clods[0] * set(0.5F) - hn::Max(height, set(0.0F)) * set(0.22F),

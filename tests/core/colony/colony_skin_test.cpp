@@ -69,15 +69,19 @@ TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
 }
 
 TEST(ColonySkin, AStemShowsOneImageFromTheGroundToItsTop) {
-    for (const double way : {1.0, -1.0}) {
-        const Mesh mesh = colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true}).mesh;
-        const double low = std::min(0.0, 0.2 * way);
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            const double height = (static_cast<double>(mesh.positions[i].y) - low) / 0.2;
-            EXPECT_NEAR(along_image(mesh.texture_coordinates[i]), std::clamp(height, 0.0, 1.0),
-                        0.03);
+    // What an individual has in the ground, a stem of the colony has not.
+    for (const double buried : {0.0, 0.3})
+        for (const double way : {1.0, -1.0}) {
+            const Mesh mesh =
+                colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true, buried}).mesh;
+            const double low = std::min(0.0, 0.2 * way);
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                const double height =
+                    std::clamp((static_cast<double>(mesh.positions[i].y) - low) / 0.2, 0.0, 1.0);
+                EXPECT_NEAR(along_image(mesh.texture_coordinates[i]),
+                            buried + (1.0 - buried) * height, 0.03);
+            }
         }
-    }
 }
 
 // Along a root the image is repeated and mirrored at its own scale, and is constant nowhere.

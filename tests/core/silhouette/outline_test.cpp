@@ -238,6 +238,24 @@ TEST(Outline, RandomOutlinesAreValidOrRefused) {
     }));
 }
 
+TEST(Outline, TheBuriedShareOfAStemEndsAtTheGround) {
+    int buried = 0;
+    for (const std::string& id : swept_ids())
+        for (const double age : {0.0, 0.3, 0.6, 1.0}) {
+            const SubCurve stem = resolved(order_of(id, age, 1)).outline.stem;
+            const double share = buried_share(stem);
+            if (share == 0.0) {
+                EXPECT_GE(stem.at(0.0).y, 0.0) << id;
+                continue;
+            }
+            if (share == 1.0) continue;  // a bracket's stem may be below its middle
+            EXPECT_LT(stem.at(0.0).y, 0.0) << id;
+            EXPECT_NEAR(stem.at(share).y, 0.0, stem.length() / 64.0) << id;
+            ++buried;
+        }
+    EXPECT_GT(buried, 80);
+}
+
 // The individual's proportions and the blend between stages must not make the outline cross itself.
 TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
     for (const std::string& id : swept_ids())

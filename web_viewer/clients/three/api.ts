@@ -179,6 +179,13 @@ export interface components {
                      */
                     variants?: "none" | "weather";
                     /**
+                     * base
+                     * @description natural: soil and the felt of the mycelium cling to the foot of the stem, as much as is usual for the species; clean: as if it were washed.
+                     * @default natural
+                     * @enum {string}
+                     */
+                    base?: "natural" | "clean";
+                    /**
                      * profile
                      * @description The engine that reads the file: sets the defaults of lod and of the options below, each of which may still be given; collision and wind only where other options allow them. core is plain glTF, which every loader reads.
                      * @default core
