@@ -12,7 +12,7 @@ namespace sporeprint::render {
 namespace {
 
 /// Smallest copy of an image. In smaller ones the charts of an atlas would run into each other.
-constexpr int least_side = 32;
+constexpr int least_level_side = 32;
 
 /// Returns the mean of each four pixels.
 Bytes halved(const Bytes& rgb, std::size_t side) {
@@ -44,7 +44,7 @@ Texture::Texture(std::span<const std::uint8_t> file, Encoding encoding, bool rep
         light_[i] = static_cast<float>(encoding == Encoding::srgb ? srgb_to_linear(value) : value);
     }
     levels_.push_back({picture.width, std::move(picture.rgb)});
-    while (levels_.back().side / 2 >= least_side) {
+    while (levels_.back().side / 2 >= least_level_side) {
         const Level& fine = levels_.back();
         levels_.push_back({fine.side / 2, halved(fine.rgb, static_cast<std::size_t>(fine.side))});
     }
