@@ -210,8 +210,16 @@ Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>
         const double least = on_roots ? least_on_root : least_segment;
         const int fitting =
             static_cast<int>((height - short_of_cap * top) / (least * place.radius));
-        const int count = std::max(1, std::min(segments, fitting));
+        int count = std::max(1, std::min(segments, fitting));
         const double end = 1.0 - short_of_cap * top / glm::length(member.rise + 2.0 * member.swing);
+        // Segments are shortest where a stem turns.
+        const auto shortest = [&](int of) {
+            double length = height;
+            for (int i = 1; i <= of; ++i)
+                length = std::min(length, glm::distance(at(end * (i - 1) / of), at(end * i / of)));
+            return length;
+        };
+        while (count > 1 && shortest(count) < (1.0 - 1e-9) * least * place.radius) --count;
         for (int i = 1; i <= count; ++i) {
             const auto above = static_cast<std::uint32_t>(skeleton.nodes.size());
             skeleton.nodes.push_back({at(end * i / count), i == count ? top : place.radius});

@@ -122,9 +122,9 @@ TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
         for (const double thick : {0.002, 0.004, 0.016}) {
             ColonyTraits traits;
             traits.habit = habit;
-            const StemFit fit{thick, 0.08, 0.085, 0.03}, young{0.7 * thick, 0.05, 0.055, 0.02};
+            const StemFit fit{thick, 0.08, 0.085, 0.03};
             const ColonySite site =
-                colony_site(params, traits, colony_growth(params, traits, fit), {fit, young});
+                colony_site(params, traits, colony_growth(params, traits, fit), {fit, fit});
             const std::vector<ColonyMember> members = unmoved(site);
             const ColonySkin skin = colony_skin(colony_skeleton(site, members, params, traits, 8),
                                                 {0, fit.length, true});
