@@ -443,8 +443,9 @@ class Drawing {
         constexpr float share = 1.0F / static_cast<float>(all);
         for (int i = 0; i < all; ++i) {
             const std::size_t sample = at[static_cast<std::size_t>(i)];
-            const glm::vec2 place = corner + glm::vec2(static_cast<float>(i % samples) + 0.5F,
-                                                       static_cast<float>(i / samples) + 0.5F);
+            const int across = i % samples, down = i / samples;
+            const glm::vec2 place = corner + glm::vec2(static_cast<float>(across) + 0.5F,
+                                                       static_cast<float>(down) + 0.5F);
             const float nearness = visible_.nearness[sample];
             if (nearness <= 0.0F) {
                 sum.shadow += shadow(camera_.in_scene(ray(place))) * share;

@@ -179,6 +179,7 @@ Bytes webp_with_alpha(std::span<const std::uint8_t> rgba, int width, int height,
 Bytes png(std::span<const std::uint8_t> rgba, int width, int height) {
     Bytes file;
     std::vector<const std::uint8_t*> rows;
+    rows.reserve(static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y)
         rows.push_back(&rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 4]);
     png_structp encoder = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
