@@ -210,6 +210,7 @@ void set_painting(const MushroomParams& params, const SpeciesShare& part, const 
     painting.surface = model.surface;
     if (params.base == Base::clean) {
         painting.surface.stem.soil = painting.surface.stem.mycelium = 0.0;
+        // What shows in no image is reset, so that it causes no other key.
         painting.surface.stem.soil_colour = StemSurface{}.soil_colour;
     }
     painting.hymenium = model.hymenium;

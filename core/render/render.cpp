@@ -114,8 +114,10 @@ Visibility visible(const DrawList& list, const Camera& camera, int columns, int 
 class Facet {
   public:
     Facet(const DrawList& list, const Visibility& visibility, std::size_t sample)
-        : draw_(&list.draws[visibility.draw[sample]]), material_(&list.materials[draw_->material]) {
-        const std::vector<glm::vec3>& seen = visibility.seen[visibility.draw[sample]];
+        : draw_index_(visibility.draw[sample]),
+          draw_(&list.draws[draw_index_]),
+          material_(&list.materials[draw_->material]) {
+        const std::vector<glm::vec3>& seen = visibility.seen[draw_index_];
         for (std::size_t i = 0; i < 3; ++i) {
             index_[i] = draw_->mesh->indices[visibility.corner[sample] + i];
             corners_[i] = seen[index_[i]];
@@ -124,6 +126,9 @@ class Facet {
     }
 
     [[nodiscard]] const MaterialLook& look() const { return material_->look; }
+
+    /// Returns the index of its draw in the draw list.
+    [[nodiscard]] std::size_t draw_index() const { return draw_index_; }
 
     /// Returns true if a facet of the same draw goes on with the surface of this one without a fold
     /// or a step: their normals are within 25 degrees, and where a ray meets the other, its
@@ -193,6 +198,7 @@ class Facet {
     }
 
   private:
+    std::size_t draw_index_;
     const Draw* draw_;
     const DrawMaterial* material_;
     std::array<std::uint32_t, 3> index_{};
@@ -380,16 +386,15 @@ class Drawing {
 
     /// Returns the light of the point of a facet that a ray meets; nothing if it is below the
     /// ground.
-    [[nodiscard]] std::optional<glm::vec3> light(const Facet& facet, std::uint32_t draw,
-                                                 const glm::vec3& ray, const Lamps& lamps,
-                                                 std::size_t group) const {
+    [[nodiscard]] std::optional<glm::vec3> light(const Facet& facet, const glm::vec3& ray,
+                                                 const Lamps& lamps, std::size_t group) const {
         const glm::vec3 weights = facet.weights(ray);
         if (!ground_.empty() && facet.point(weights).y < 0.0F) return std::nullopt;
         const glm::vec3 direction = camera_.in_scene(ray);
         const float length = std::sqrt(glm::dot(direction, direction));
-        return reflected(
-            facet.surface(weights, direction * (-1.0F / length), ambient_[draw], scale_),
-            facet.look(), lamps, group);
+        return reflected(facet.surface(weights, direction * (-1.0F / length),
+                                       ambient_[facet.draw_index()], scale_),
+                         facet.look(), lamps, group);
     }
 
     [[nodiscard]] Facet facet_at(std::size_t sample) const { return {list_, visible_, sample}; }
@@ -397,11 +402,10 @@ class Drawing {
     /// Samples of a pixel that show one smooth surface: the middle of them stands for all.
     struct Patch {
         Facet facet;
-        std::uint32_t draw;
         glm::vec2 sum{0.0F};  ///< of the places of its samples
         float samples = 0.0F;
 
-        Patch(const Facet& first, std::uint32_t of) : facet(first), draw(of) {}
+        explicit Patch(const Facet& first) : facet(first) {}
     };
 
     [[nodiscard]] Pixel pixel(int x, int y) const {
@@ -421,9 +425,9 @@ class Drawing {
         const glm::vec3 middle = ray(corner + 0.5F * samples);
         if (is_empty) return {glm::vec3(0.0F), 0.0F, shadow(camera_.in_scene(middle))};
         Pixel sum;
-        const auto add = [&](const Facet& facet, std::uint32_t draw, const glm::vec3& through,
-                             const Lamps& lamps, std::size_t group, float weight) {
-            if (const auto found = light(facet, draw, through, lamps, group)) {
+        const auto add = [&](const Facet& facet, const glm::vec3& through, const Lamps& lamps,
+                             std::size_t group, float weight) {
+            if (const auto found = light(facet, through, lamps, group)) {
                 sum.light += *found * weight;
                 sum.surface += weight;
             } else {
@@ -431,8 +435,7 @@ class Drawing {
             }
         };
         if (is_one) {
-            add(facet_at(at[0]), visible_.draw[at[0]], middle, {lights_.lamps, lamp_shadows_, 1}, 0,
-                1.0F);
+            add(facet_at(at[0]), middle, {lights_.lamps, lamp_shadows_, 1}, 0, 1.0F);
             return sum;
         }
 
@@ -456,7 +459,7 @@ class Drawing {
             while (of < count &&
                    !patches[of]->facet.continues_with(facet, ray(place), nearness, pixel))
                 ++of;
-            if (of == count) patches[count++].emplace(facet, visible_.draw[sample]);
+            if (of == count) patches[count++].emplace(facet);
             patches[of]->sum += place;
             patches[of]->samples += 1.0F;
         }
@@ -464,7 +467,7 @@ class Drawing {
         const Lamps lamps{lights_.lamps, lamp_shadows_, count};
         for (std::size_t i = 0; i < count; ++i) {
             const Patch& patch = *patches[i];
-            add(patch.facet, patch.draw, ray(patch.sum * (1.0F / patch.samples)), lamps, i,
+            add(patch.facet, ray(patch.sum * (1.0F / patch.samples)), lamps, i,
                 patch.samples * share);
         }
         return sum;
