@@ -111,11 +111,11 @@ struct Pictures {
     template <class Spec>
     static Body grow(const Context& context, const Spec& spec, Resolved& resolved, Extras extras,
                      int depth, const ExecutionContext& execution) {
-        extras.write = [&](const GlbScene& scene) -> Body {
+        extras.write = [&](const GlbScene& scene, const Parallel& parallel) -> Body {
             execution.observer(Step::draw);
             throw_if_cancelled(execution);
-            return {Slice(std::make_shared<const Bytes>(
-                rendered_png(scene, spec.picture, execution.parallel)))};
+            return {
+                Slice(std::make_shared<const Bytes>(rendered_png(scene, spec.picture, parallel)))};
         };
         return Kind::grow(context, spec, resolved, extras, depth, execution);
     }

@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <utility>
+#include <memory>
+#include <string>
 
 #include "core/problems.h"
 
@@ -25,39 +26,53 @@ std::int8_t rounded_byte(float value) {
     return static_cast<std::int8_t>(std::floor(value * 127.0F + 0.5F));
 }
 
-std::size_t place_in(VertexOrder order, std::size_t i) { return order.empty() ? i : order[i]; }
-
 /// Encodes vectors by a filter of meshoptimizer, some at a time, since it reads vectors of four
 /// components.
 ///
 /// wide  returns the vector at an index
 template <class Item, class Wide>
-void write_octahedral(std::size_t count, VertexOrder order, int bits, const Wide& wide,
-                      std::vector<Item>& out) {
+std::vector<Item> octahedral(std::size_t count, int bits, const Wide& wide) {
     std::array<glm::vec4, 256> some{};
-    out.resize(count);
+    std::vector<Item> out(count);
     for (std::size_t begin = 0; begin < count; begin += some.size()) {
         const std::size_t n = std::min(some.size(), count - begin);
-        for (std::size_t i = 0; i < n; ++i) some[i] = wide(place_in(order, begin + i));
+        for (std::size_t i = 0; i < n; ++i) some[i] = wide(begin + i);
         meshopt_encodeFilterOct(&out[begin], n, sizeof(Item), bits, &some[0].x);
     }
+    return out;
+}
+
+/// Returns the bytes that an encoder writes.
+///
+/// most    bytes that it may write
+/// encode  writes them to an address, and returns their number: 0 if it refuses
+/// what    is encoded, for the error
+template <class Encode>
+Bytes encoded(std::size_t most, const Encode& encode, const char* what) {
+    const auto memory = std::make_unique_for_overwrite<std::uint8_t[]>(most);
+    const std::size_t length = encode(memory.get());
+    if (length == 0) throw GenerationError(std::string(what) + " could not be compressed");
+    return {memory.get(), memory.get() + length};
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> order_of_first_use(std::span<const std::uint32_t> indices,
-                                              std::size_t vertices) {
-    std::vector<bool> is_used(vertices, false);
-    std::vector<std::uint32_t> order;
-    order.reserve(vertices);
-    for (const std::uint32_t index : indices) {
-        if (is_used[index]) continue;
-        is_used[index] = true;
-        order.push_back(index);
-    }
-    for (std::uint32_t i = 0; i < vertices; ++i)
-        if (!is_used[i]) order.push_back(i);
-    return order;
+Renumbered renumbered_by_first_use(std::span<const std::uint32_t> indices, std::size_t vertices) {
+    constexpr std::uint32_t unused = ~0U;
+    std::vector<std::uint32_t> place(vertices, unused);
+    Renumbered out;
+    out.order.reserve(vertices);
+    out.indices.reserve(indices.size());
+    const auto place_of = [&](std::uint32_t index) {
+        if (place[index] == unused) {
+            place[index] = static_cast<std::uint32_t>(out.order.size());
+            out.order.push_back(index);
+        }
+        return place[index];
+    };
+    for (const std::uint32_t index : indices) out.indices.push_back(place_of(index));
+    for (std::uint32_t i = 0; i < vertices; ++i) place_of(i);
+    return out;
 }
 
 float largest_coordinate(std::span<const glm::vec3> values, float at_least) {
@@ -89,20 +104,13 @@ std::vector<Quantized8> quantized_tangents(std::span<const glm::vec4> tangents) 
     return out;
 }
 
-std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals, VertexOrder order,
-                                            std::vector<Quantized16> reused) {
-    std::vector<Quantized16> out = std::move(reused);
-    write_octahedral(
-        normals.size(), order, 10, [&](std::size_t i) { return glm::vec4(normals[i], 0.0F); }, out);
-    return out;
+std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals) {
+    return octahedral<Quantized16>(normals.size(), 10,
+                                   [&](std::size_t i) { return glm::vec4(normals[i], 0.0F); });
 }
 
-std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents,
-                                            VertexOrder order) {
-    std::vector<Quantized8> out;
-    write_octahedral(
-        tangents.size(), order, 7, [&](std::size_t i) { return tangents[i]; }, out);
-    return out;
+std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents) {
+    return octahedral<Quantized8>(tangents.size(), 7, [&](std::size_t i) { return tangents[i]; });
 }
 
 std::vector<std::uint32_t> filtered_vectors(std::span<const float> values, std::size_t components,
@@ -113,29 +121,26 @@ std::vector<std::uint32_t> filtered_vectors(std::span<const float> values, std::
     return out;
 }
 
-std::size_t append_encoded_vertices(std::span<const std::uint8_t> data, std::size_t count,
-                                    std::size_t stride, Bytes& out) {
-    const std::size_t before = out.size(), most = meshopt_encodeVertexBufferBound(count, stride);
-    out.resize(before + most);
-    const std::size_t length =
-        meshopt_encodeVertexBuffer(out.data() + before, most, data.data(), count, stride);
-    if (length == 0) throw GenerationError("a vertex stream could not be compressed");
-    out.resize(before + length);
-    return length;
+Bytes encoded_vertices(std::span<const std::uint8_t> data, std::size_t count, std::size_t stride) {
+    const std::size_t most = meshopt_encodeVertexBufferBound(count, stride);
+    return encoded(
+        most,
+        [&](std::uint8_t* out) {
+            return meshopt_encodeVertexBuffer(out, most, data.data(), count, stride);
+        },
+        "a vertex stream");
 }
 
-std::size_t append_encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,
-                                     Bytes& out) {
+Bytes encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices) {
     // The library's default is version 0, which the extension does not allow.
     [[maybe_unused]] static const bool is_set = (meshopt_encodeIndexVersion(1), true);
-    const std::size_t before = out.size(),
-                      most = meshopt_encodeIndexBufferBound(indices.size(), vertices);
-    out.resize(before + most);
-    const std::size_t length =
-        meshopt_encodeIndexBuffer(out.data() + before, most, indices.data(), indices.size());
-    if (length == 0) throw GenerationError("a triangle list could not be compressed");
-    out.resize(before + length);
-    return length;
+    const std::size_t most = meshopt_encodeIndexBufferBound(indices.size(), vertices);
+    return encoded(
+        most,
+        [&](std::uint8_t* out) {
+            return meshopt_encodeIndexBuffer(out, most, indices.data(), indices.size());
+        },
+        "a triangle list");
 }
 
 }  // namespace sporeprint

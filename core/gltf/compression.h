@@ -25,14 +25,18 @@ using Quantized8 = std::array<std::int8_t, 4>;
 /// positions, and their error is still 2^-14 of the largest coordinate.
 inline constexpr int most_quantized = 8192;
 
-/// The vertices of a file in their order, as indices of those of a mesh; empty for all as they are.
-using VertexOrder = std::span<const std::uint32_t>;
+/// Triangles whose vertices have another order.
+struct Renumbered {
+    std::vector<std::uint32_t> order;    ///< of the vertices, as indices of those before
+    std::vector<std::uint32_t> indices;  ///< of the triangles
+};
 
-/// Returns the order in which triangles first use vertices; those that none uses come last.
+/// Returns triangles whose vertices are numbered as they are first used; those that none uses come
+/// last.
 ///
 /// indices  each below `vertices`
-[[nodiscard]] std::vector<std::uint32_t> order_of_first_use(std::span<const std::uint32_t> indices,
-                                                            std::size_t vertices);
+[[nodiscard]] Renumbered renumbered_by_first_use(std::span<const std::uint32_t> indices,
+                                                 std::size_t vertices);
 
 /// Returns vectors as integers: each times the step is within half a step of the vector.
 ///
@@ -48,16 +52,11 @@ using VertexOrder = std::span<const std::uint32_t>;
 
 /// Returns unit vectors for the filter OCTAHEDRAL, with 10 bits for each coordinate: decoding
 /// returns what quantized_normals() returns, within 0.3 degrees.
-///
-/// reused  a vector whose memory is used
-[[nodiscard]] std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals,
-                                                          VertexOrder order = {},
-                                                          std::vector<Quantized16> reused = {});
+[[nodiscard]] std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals);
 
 /// Returns tangents for the filter OCTAHEDRAL, with 7 bits for each coordinate: decoding returns
 /// what quantized_tangents() returns, within two degrees.
-[[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents,
-                                                          VertexOrder order = {});
+[[nodiscard]] std::vector<Quantized8> octahedral_tangents(std::span<const glm::vec4> tangents);
 
 /// Returns vectors for the filter EXPONENTIAL: decoding returns each component within 2^-bits of
 /// the largest of its vector.
@@ -68,24 +67,19 @@ using VertexOrder = std::span<const std::uint32_t>;
 [[nodiscard]] std::vector<std::uint32_t> filtered_vectors(std::span<const float> values,
                                                           std::size_t components, int bits);
 
-/// Appends a vertex stream encoded by meshoptimizer, vertex codec 0 (EXT_meshopt_compression, mode
+/// Returns a vertex stream encoded by meshoptimizer, vertex codec 0 (EXT_meshopt_compression, mode
 /// ATTRIBUTES).
 ///
 /// data    `count` items of `stride` bytes; padding bytes are 0
 /// stride  a multiple of 4, at most 256
-/// out     with capacity for the stream before it is encoded, lest it is moved
-/// returns the number of bytes appended
 /// throws  GenerationError if the encoder refuses
-std::size_t append_encoded_vertices(std::span<const std::uint8_t> data, std::size_t count,
-                                    std::size_t stride, Bytes& out);
+[[nodiscard]] Bytes encoded_vertices(std::span<const std::uint8_t> data, std::size_t count,
+                                     std::size_t stride);
 
-/// Appends a triangle list encoded by meshoptimizer, index codec 1 (mode TRIANGLES). Decoding
+/// Returns a triangle list encoded by meshoptimizer, index codec 1 (mode TRIANGLES). Decoding
 /// returns the same triangles in the same order, each perhaps from another of its corners.
 ///
-/// out     with capacity for the list before it is encoded, lest it is moved
-/// returns the number of bytes appended
 /// throws  GenerationError if the encoder refuses
-std::size_t append_encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,
-                                     Bytes& out);
+[[nodiscard]] Bytes encoded_triangles(std::span<const std::uint32_t> indices, std::size_t vertices);
 
 }  // namespace sporeprint

@@ -106,13 +106,18 @@ class InstanceWriter {
                             std::size_t components, int bits) {
         const auto [found, is_new] = written_.try_emplace({type, values}, tables_.count);
         if (!is_new) return found->second;
-        const std::vector<std::uint32_t> filtered = is_compressed_
-                                                        ? filtered_vectors(values, components, bits)
-                                                        : std::vector<std::uint32_t>();
-        const auto out = std::make_shared<Bytes>();
-        tables_.transforms(is_compressed_ ? bytes_of(filtered) : bytes_of(values),
-                           values.size() / components, type, is_compressed_, *out);
-        geometries_.emplace_back(out);
+        Stream stream{.type = type,
+                      .mode = is_compressed_ ? attributes_mode : nullptr,
+                      .filter = "EXPONENTIAL"};
+        if (is_compressed_)
+            stream.set_items(filtered_vectors(values, components, bits));
+        else
+            stream.set_items(values);
+        stream.items = values.size() / components;
+        stream.stride = components * sizeof(float);
+        stream.encode();
+        tables_.stream(stream);
+        geometries_.emplace_back(stream.bytes);
         return found->second;
     }
 
@@ -237,36 +242,44 @@ std::string variants_json(const GlbPrimitive& primitive, const GlbScene& scene) 
            mappings + "]}}";
 }
 
-/// Returns the JSON of all meshes, and appends their buffers to `geometries`.
+/// Returns all primitives of a scene and what is written of each.
 ///
 /// steps  of the positions of each mesh
-std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, Tables& tables,
-                        Body& geometries) {
-    const GlbGeometry storage = scene.geometry;
-    std::string meshes;
+std::vector<PrimitivePart> parts_of(const GlbScene& scene, const std::vector<float>& steps) {
+    std::vector<PrimitivePart> parts;
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        const GlbMesh& mesh = scene.meshes[i];
-        const float step = steps[i];
-        std::string primitives;
-        for (const GlbPrimitive& primitive : mesh.primitives) {
+        if (scene.meshes[i].primitives.empty()) throw GenerationError("a mesh has no primitives");
+        for (const GlbPrimitive& primitive : scene.meshes[i].primitives) {
             const bool has_material = primitive.material != GlbPrimitive::no_material;
             if (has_material && primitive.material >= scene.materials.size())
                 throw GenerationError("a primitive wears a material that there is not");
-            const TextureData data =
-                has_material ? data_for(scene.materials[primitive.material]) : TextureData::none;
-            Geometry shape = geometry_of(*primitive.mesh, data, scene.sway, storage, step,
-                                         primitive.targets.empty(), tables);
-            geometries.emplace_back(std::move(shape.bytes));
-            TargetData morph = target_data(primitive.targets, primitive.mesh->positions.size(),
-                                           storage, step, tables);
-            if (morph.bytes) geometries.emplace_back(std::move(morph.bytes));
-            (primitives += separator(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
-            append(primitives += "\"indices\":", shape.indices_accessor);
-            if (has_material) append(primitives += ",\"material\":", primitive.material);
-            primitives += variants_json(primitive, scene);
-            primitives += morph.targets + "}";
+            parts.push_back(
+                {&primitive,
+                 has_material ? data_for(scene.materials[primitive.material]) : TextureData::none,
+                 steps[i]});
         }
-        if (primitives.empty()) throw GenerationError("a mesh has no primitives");
+    }
+    return parts;
+}
+
+/// Returns the JSON of all meshes, and appends their buffers to `geometries`.
+///
+/// steps  of the positions of each mesh
+std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps,
+                        const Parallel& parallel, Tables& tables, Body& geometries) {
+    const std::vector<PrimitiveJson> written = write_primitives(
+        parts_of(scene, steps), scene.sway, scene.geometry, parallel, tables, geometries);
+    std::string meshes;
+    auto next = written.begin();
+    for (const GlbMesh& mesh : scene.meshes) {
+        std::string primitives;
+        for (const GlbPrimitive& primitive : mesh.primitives) {
+            (primitives += separator(primitives)) += "{" + next->geometry;
+            if (primitive.material != GlbPrimitive::no_material)
+                append(primitives += ",\"material\":", primitive.material);
+            primitives += variants_json(primitive, scene);
+            primitives += next++->targets + "}";
+        }
         append_quoted((meshes += separator(meshes)) += "{\"name\":", mesh.name);
         meshes += ",\"primitives\":[" + primitives + "]" + target_weights_json(mesh) + "}";
     }
@@ -326,7 +339,7 @@ void append_images(const TextureTables& texture_tables, Body& body) {
 
 }  // namespace
 
-Body glb(const GlbScene& scene) {
+Body glb(const GlbScene& scene, const Parallel& parallel) {
     if (scene.nodes.empty()) throw GenerationError("a scene without nodes shows nothing");
     Tables tables;
     Body geometries;
@@ -334,7 +347,7 @@ Body glb(const GlbScene& scene) {
     if (scene.geometry != GlbGeometry::floats) used.require(quantization);
     if (scene.geometry == GlbGeometry::compressed) used.require(meshopt_compression);
     const std::vector<float> steps = steps_of(scene);
-    const std::string meshes = meshes_json(scene, steps, tables, geometries);
+    const std::string meshes = meshes_json(scene, steps, parallel, tables, geometries);
     const NodeData nodes = node_data(scene, steps, tables, used, geometries);
     AnimationData clip;
     if (scene.clip) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/images.h"
 #include "core/mesh/mesh.h"
 #include "core/surface/paint.h"
 
@@ -152,14 +153,15 @@ struct GlbScene {
 /// scaled, so that the origin stays the pivot. Normals are normalised i16, tangents normalised i8;
 /// normals of targets stay floats, for their differences exceed 1.
 ///
-/// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
-///          targets, the instances of each node that has some, the clip, then each image with its
-///          padding
-/// throws   GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
-///          material needs, an index of no mesh, material or node, a node with a mesh and children,
-///          a node with two parents, a rotation that is no unit quaternion, a zero scale,
-///          targets, variants or a clip that do not fit, sway as texture coordinates of a mesh
-///          without others, or a file of more than 2^32 - 1 bytes
-[[nodiscard]] Body glb(const GlbScene& scene);
+/// parallel  compresses independent streams
+/// returns   slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
+///           targets, the instances of each node that has some, the clip, then each image with its
+///           padding
+/// throws    GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
+///           material needs, an index of no mesh, material or node, a node with a mesh and children,
+///           a node with two parents, a rotation that is no unit quaternion, a zero scale,
+///           targets, variants or a clip that do not fit, sway as texture coordinates of a mesh
+///           without others, or a file of more than 2^32 - 1 bytes
+[[nodiscard]] Body glb(const GlbScene& scene, const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

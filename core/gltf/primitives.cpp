@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <functional>
 #include <glm/common.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -49,129 +52,116 @@ std::string bounds_of(std::span<const Quantized16> values) {
     return ",\"min\":[" + list(low) + "],\"max\":[" + list(high) + "]";
 }
 
-/// Adds positions as integers.
-std::size_t add_quantized(const std::vector<Quantized16>& items, bool compressed, Tables& tables,
-                          Bytes& out) {
-    return tables.stream(bytes_of(items), items.size(), i16_component, "VEC3", bounds_of(items),
-                         compressed, out);
-}
-
-/// Adds the sway of all vertices, if the mesh has it.
-///
-/// throws  GenerationError for texture coordinates of a mesh without others, which have to precede
-void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, VertexOrder order,
-              Tables& tables, Geometry& geometry, Bytes& out) {
-    const std::size_t n = mesh.sway.size();
-    if (n == 0) return;
-    const auto sway = [&](std::size_t i) { return mesh.sway[order.empty() ? i : order[i]]; };
-    if (format != GlbSway::texture_coordinates) {
-        std::vector<std::array<std::uint8_t, 4>> items;
-        items.reserve(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            const Sway of = sway(i);
-            items.push_back({normalized_byte(of.bend), normalized_byte(of.flutter),
-                             normalized_byte(of.phase), normalized_byte(of.branch)});
-        }
-        return geometry.attribute(
-            format == GlbSway::color ? "COLOR_0" : "_WIND",
-            tables.stream(bytes_of(items), n, u8_component, "VEC4", normalized, compressed, out));
-    }
-    if (!textured)
-        throw GenerationError("sway as texture coordinates needs a mesh that has others");
-    std::vector<std::array<std::uint16_t, 2>> first, second;
-    first.reserve(n);
-    second.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const Sway of = sway(i);
-        first.push_back(normalized_coordinates({of.bend, of.phase}));
-        second.push_back(normalized_coordinates({of.flutter, of.branch}));
-    }
-    for (const auto& [name, items] : {std::pair("TEXCOORD_1", &first), {"TEXCOORD_2", &second}})
-        geometry.attribute(name, tables.stream(bytes_of(*items), n, u16_component, "VEC2",
-                                               normalized, compressed, out));
-}
-
 constexpr const char* octahedral = "OCTAHEDRAL";
 
-/// Returns the indices of a mesh whose vertices have another order.
-std::vector<std::uint32_t> renumbered(std::span<const std::uint32_t> indices, VertexOrder order) {
-    std::vector<std::uint32_t> place(order.size()), out;
-    for (std::uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-    out.reserve(indices.size());
-    for (const std::uint32_t index : indices) out.push_back(place[index]);
-    return out;
-}
-
-/// Writes quantised geometry.
+/// Returns a stream of vertices without bytes.
 ///
-/// step      of the positions
-/// renumber  whether triangles and vertices may have another order if they are compressed
-Geometry quantized_geometry(const Mesh& mesh, TextureData data, GlbSway sway, float step,
-                            bool compressed, bool renumber, Tables& tables) {
-    check_mesh(mesh, data);
-    const std::size_t n = mesh.positions.size();
-    const auto bytes = std::make_shared<Bytes>();
-    // Memory for all streams as if none became smaller; pages that are never written cost nothing.
-    bytes->reserve(n * 32 + mesh.indices.size() * 4 + 4096);
-    Geometry out;
-    std::vector<Quantized16> items = quantized(mesh.positions, step);
-    std::vector<std::uint32_t> order, triangles;
-    if (compressed && renumber) {
-        triangles = triangles_by_last_vertex(mesh.indices, n);
-        order = order_of_first_use(triangles, n);
-        triangles = renumbered(triangles, order);
-        std::vector<Quantized16> ordered;
-        ordered.reserve(n);
-        for (const std::uint32_t i : order) ordered.push_back(items[i]);
-        items = std::move(ordered);
-    }
-    out.attribute("POSITION", add_quantized(items, compressed, tables, *bytes));
-    items = compressed ? octahedral_normals(mesh.normals, order, std::move(items))
-                       : quantized_normals(mesh.normals);
-    out.attribute("NORMAL", tables.stream(bytes_of(items), n, i16_component, "VEC3", normalized,
-                                          compressed, *bytes, octahedral));
-    if (data == TextureData::all) {
-        const std::vector<Quantized8> tangents = compressed
-                                                     ? octahedral_tangents(mesh.tangents, order)
-                                                     : quantized_tangents(mesh.tangents);
-        out.attribute("TANGENT", tables.stream(bytes_of(tangents), n, i8_component, "VEC4",
-                                               normalized, compressed, *bytes, octahedral));
-    }
-    if (data != TextureData::none) {
-        std::vector<std::array<std::uint16_t, 2>> coordinates;
-        coordinates.reserve(n);
-        for (std::size_t i = 0; i < n; ++i)
-            coordinates.push_back(
-                normalized_coordinates(mesh.texture_coordinates[order.empty() ? i : order[i]]));
-        out.attribute("TEXCOORD_0", tables.stream(bytes_of(coordinates), n, u16_component, "VEC2",
-                                                  normalized, compressed, *bytes));
-    }
-    add_sway(mesh, data != TextureData::none, sway, compressed, order, tables, out, *bytes);
-    const bool small = n <= 65535;
-    const int component = small ? u16_component : u32_component;
-    if (compressed) {
-        out.indices_accessor = tables.compressed_triangles(order.empty() ? mesh.indices : triangles,
-                                                           n, component, *bytes);
-        bytes->shrink_to_fit();
-    } else {
-        const std::size_t length = mesh.indices.size() * (small ? 2 : 4);
-        Bytes indices(padded(length));
-        std::uint8_t* at = indices.data();
-        for (const std::uint32_t index : mesh.indices)
-            if (small)
-                put(at, static_cast<std::uint16_t>(index));
-            else
-                put(at, index);
-        bytes->insert(bytes->end(), indices.begin(), indices.end());
-        out.indices_accessor =
-            tables.accessor(mesh.indices.size(), component, "SCALAR", length, index_target);
-    }
-    out.bytes = bytes;
-    return out;
+/// more      members of its accessor
+/// encoded   whether it is compressed
+/// filter    of the items, if they are compressed
+Stream vertex_stream(const char* attribute, int component, const char* type, std::string more,
+                     bool encoded, const char* filter = nullptr) {
+    return {.attribute = attribute,
+            .component = component,
+            .type = type,
+            .more = std::move(more),
+            .target = vertex_target,
+            .mode = encoded ? attributes_mode : nullptr,
+            .filter = encoded ? filter : nullptr};
 }
 
-Geometry float_geometry(const Mesh& mesh, TextureData data, GlbSway sway, Tables& tables) {
+/// Sets positions as integers.
+void set_positions(Stream& stream, const std::vector<Quantized16>& items) {
+    stream.more = bounds_of(items);
+    stream.set_items(items);
+}
+
+std::vector<std::array<std::uint16_t, 2>> normalized_coordinates(
+    std::span<const glm::vec2> coordinates) {
+    std::vector<std::array<std::uint16_t, 2>> items;
+    items.reserve(coordinates.size());
+    for (const glm::vec2& uv : coordinates) items.push_back(normalized_coordinates(uv));
+    return items;
+}
+
+/// A stream of vertices and what sets its items.
+struct StreamPlan {
+    Stream stream;
+    std::function<void(Stream&)> set;
+};
+
+/// Returns the streams of the sway of a mesh: none if it has no sway.
+///
+/// throws  GenerationError for texture coordinates of a mesh without others, which have to precede
+std::vector<StreamPlan> sway_streams(const Mesh& mesh, bool textured, GlbSway format,
+                                     bool encoded) {
+    if (mesh.sway.empty()) return {};
+    const auto plan = [&](const char* name, int component, const char* type, auto components) {
+        return StreamPlan{vertex_stream(name, component, type, normalized, encoded),
+                          [&mesh, components](Stream& stream) {
+                              std::vector<decltype(components(Sway()))> items;
+                              items.reserve(mesh.sway.size());
+                              for (const Sway& of : mesh.sway) items.push_back(components(of));
+                              stream.set_items(items);
+                          }};
+    };
+    if (format != GlbSway::texture_coordinates)
+        return {plan(format == GlbSway::color ? "COLOR_0" : "_WIND", u8_component, "VEC4",
+                     [](const Sway& of) {
+                         return std::array{normalized_byte(of.bend), normalized_byte(of.flutter),
+                                           normalized_byte(of.phase), normalized_byte(of.branch)};
+                     })};
+    if (!textured)
+        throw GenerationError("sway as texture coordinates needs a mesh that has others");
+    return {plan("TEXCOORD_1", u16_component, "VEC2",
+                 [](const Sway& of) {
+                     return normalized_coordinates({of.bend, of.phase});
+                 }),
+            plan("TEXCOORD_2", u16_component, "VEC2", [](const Sway& of) {
+                return normalized_coordinates({of.flutter, of.branch});
+            })};
+}
+
+/// Throws GenerationError for a target with another number of vertices than its mesh.
+void check_targets(const GlbPrimitive& primitive) {
+    const std::size_t vertices = primitive.mesh->positions.size();
+    const std::span<const MorphTarget> targets = primitive.targets;
+    for (const MorphTarget& target : targets)
+        if (target.positions.size() != vertices ||
+            target.normals.size() != (targets.front().normals.empty() ? 0 : vertices))
+            throw GenerationError("a morph target has another number of vertices than its mesh");
+}
+
+/// The members of a primitive while they are written.
+class PrimitiveMembers {
+  public:
+    void attribute(const char* name, std::size_t accessor) {
+        attributes_ += attributes_.empty() ? "\"" : ",\"";
+        append((attributes_ += name) += "\":", accessor);
+    }
+
+    void target(std::size_t positions, std::optional<std::size_t> normals) {
+        targets_ += targets_.empty() ? ",\"targets\":[" : ",";
+        append(targets_ += "{\"POSITION\":", positions);
+        if (normals) append(targets_ += ",\"NORMAL\":", *normals);
+        targets_ += '}';
+    }
+
+    [[nodiscard]] PrimitiveJson json(std::size_t indices) const {
+        std::string before = "\"attributes\":{" + attributes_ + "},\"indices\":";
+        append(before, indices);
+        return {std::move(before), targets_.empty() ? std::string() : targets_ + ']'};
+    }
+
+  private:
+    std::string attributes_, targets_;
+};
+
+PrimitiveJson write_floats(const GlbPrimitive& primitive, TextureData data, GlbSway sway,
+                           Tables& tables, Body& body) {
+    const Mesh& mesh = *primitive.mesh;
     check_mesh(mesh, data);
+    check_targets(primitive);
     const std::size_t n = mesh.positions.size();
     const bool small = n <= 65535;
     const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
@@ -181,7 +171,7 @@ Geometry float_geometry(const Mesh& mesh, TextureData data, GlbSway sway, Tables
                                                                          : 4;
     Chunk chunk(n * (12 + 12 + (has_tangents ? 16 : 0) + (has_coordinates ? 4 : 0) + sway_size) +
                 padded(index_bytes));
-    Geometry out;
+    PrimitiveMembers out;
     chunk.append(std::span<const glm::vec3>(mesh.positions));
     out.attribute("POSITION", tables.positions(mesh.positions));
     chunk.append(std::span<const glm::vec3>(mesh.normals));
@@ -198,63 +188,175 @@ Geometry float_geometry(const Mesh& mesh, TextureData data, GlbSway sway, Tables
         out.attribute("TEXCOORD_0",
                       tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
-    Bytes weights;
-    add_sway(mesh, has_coordinates, sway, false, {}, tables, out, weights);
-    chunk.append(std::span<const std::uint8_t>(weights));
+    for (auto& [stream, set] : sway_streams(mesh, has_coordinates, sway, false)) {
+        set(stream);
+        stream.encode();
+        chunk.append(std::span<const std::uint8_t>(*stream.bytes));
+        out.attribute(stream.attribute, tables.stream(stream));
+    }
     if (small)
         for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
     else
         chunk.append(std::span<const std::uint32_t>(mesh.indices));
-    out.indices_accessor =
+    const std::size_t indices =
         tables.accessor(mesh.indices.size(), small ? u16_component : u32_component, "SCALAR",
                         index_bytes, index_target);
-    out.bytes = std::move(chunk.bytes);
-    return out;
+    body.emplace_back(std::move(chunk.bytes));
+    if (primitive.targets.empty()) return out.json(indices);
+    Chunk offsets(primitive.targets.size() * n *
+                  (primitive.targets.front().normals.empty() ? 12 : 24));
+    for (const MorphTarget& target : primitive.targets) {
+        offsets.append(std::span<const glm::vec3>(target.positions));
+        const std::size_t positions = tables.positions(target.positions);
+        std::optional<std::size_t> normals;
+        if (!target.normals.empty()) {
+            offsets.append(std::span<const glm::vec3>(target.normals));
+            normals = tables.vectors(target.normals);
+        }
+        out.target(positions, normals);
+    }
+    body.emplace_back(std::move(offsets.bytes));
+    return out.json(indices);
 }
+
+/// The streams of a quantised primitive: planned, then made by tasks, then written.
+class QuantizedPrimitive {
+  public:
+    /// step  of the positions
+    QuantizedPrimitive(const GlbPrimitive& primitive, TextureData data, GlbSway sway, float step,
+                       bool compressed)
+        : mesh_(*primitive.mesh), reorders_(compressed && primitive.targets.empty()) {
+        check_mesh(mesh_, data);
+        check_targets(primitive);
+        plan_vertices(data, step, compressed);
+        for (StreamPlan& plan : sway_streams(mesh_, data != TextureData::none, sway, compressed))
+            attributes_.push_back(std::move(plan));
+        const bool small = mesh_.positions.size() <= 65535;
+        triangle_stream_ = {.items = mesh_.indices.size(),
+                            .stride = small ? 2U : 4U,
+                            .component = small ? u16_component : u32_component,
+                            .type = "SCALAR",
+                            .target = index_target,
+                            .mode = compressed ? triangles_mode : nullptr};
+        for (const MorphTarget& target : primitive.targets) plan_target(target, step, compressed);
+    }
+
+    /// Adds independent tasks that set all items, and find the order in which triangles and vertices
+    /// compress well, unless those of targets have to stay in their order.
+    void add_first_tasks(std::vector<std::function<void()>>& tasks) {
+        if (reorders_) tasks.emplace_back([this] { reorder(); });
+        for (std::vector<StreamPlan>* plans : {&attributes_, &targets_})
+            for (StreamPlan& plan : *plans) tasks.emplace_back([&plan] { plan.set(plan.stream); });
+    }
+
+    /// Adds independent tasks that encode the streams, when the first ones are done.
+    void add_last_tasks(std::vector<std::function<void()>>& tasks) {
+        // Triangles take longest, so they come first.
+        tasks.emplace_back([this] {
+            triangle_stream_.encode_triangles(reorders_ ? reordered_.indices : mesh_.indices,
+                                              mesh_.positions.size());
+        });
+        for (std::vector<StreamPlan>* plans : {&attributes_, &targets_})
+            for (StreamPlan& plan : *plans)
+                tasks.emplace_back([this, &plan] { plan.stream.encode(reordered_.order); });
+    }
+
+    /// Writes the streams, once their tasks are done.
+    PrimitiveJson write(Tables& tables, Body& body) const {
+        const auto written = [&](const Stream& stream) {
+            body.emplace_back(stream.bytes);
+            return tables.stream(stream);
+        };
+        PrimitiveMembers out;
+        for (const StreamPlan& plan : attributes_)
+            out.attribute(plan.stream.attribute, written(plan.stream));
+        const std::size_t indices = written(triangle_stream_);
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            const std::size_t positions = written(targets_[i].stream);
+            std::optional<std::size_t> normals;
+            if (i + 1 < targets_.size() && targets_[i + 1].stream.component == float_component)
+                normals = written(targets_[++i].stream);
+            out.target(positions, normals);
+        }
+        return out.json(indices);
+    }
+
+  private:
+    void plan_vertices(TextureData data, float step, bool compressed) {
+        attributes_.push_back({vertex_stream("POSITION", i16_component, "VEC3", {}, compressed),
+                               [this, step](Stream& stream) {
+                                   set_positions(stream, quantized(mesh_.positions, step));
+                               }});
+        attributes_.push_back(
+            {vertex_stream("NORMAL", i16_component, "VEC3", normalized, compressed, octahedral),
+             [this](Stream& stream) {
+                 stream.set_items(stream.mode ? octahedral_normals(mesh_.normals)
+                                              : quantized_normals(mesh_.normals));
+             }});
+        if (data == TextureData::all)
+            attributes_.push_back(
+                {vertex_stream("TANGENT", i8_component, "VEC4", normalized, compressed, octahedral),
+                 [this](Stream& stream) {
+                     stream.set_items(stream.mode ? octahedral_tangents(mesh_.tangents)
+                                                  : quantized_tangents(mesh_.tangents));
+                 }});
+        if (data != TextureData::none)
+            attributes_.push_back(
+                {vertex_stream("TEXCOORD_0", u16_component, "VEC2", normalized, compressed),
+                 [this](Stream& stream) {
+                     stream.set_items(normalized_coordinates(mesh_.texture_coordinates));
+                 }});
+    }
+
+    void plan_target(const MorphTarget& target, float step, bool compressed) {
+        targets_.push_back({vertex_stream(nullptr, i16_component, "VEC3", {}, compressed),
+                            [&target, step](Stream& stream) {
+                                set_positions(stream, quantized(target.positions, step));
+                            }});
+        if (!target.normals.empty())
+            targets_.push_back({vertex_stream(nullptr, float_component, "VEC3", {}, compressed),
+                                [&target](Stream& stream) { stream.set_items(target.normals); }});
+    }
+
+    void reorder() {
+        const std::size_t n = mesh_.positions.size();
+        reordered_ = renumbered_by_first_use(triangles_by_last_vertex(mesh_.indices, n), n);
+    }
+
+    const Mesh& mesh_;
+    bool reorders_;
+    Renumbered reordered_;  ///< empty unless it reorders
+    std::vector<StreamPlan> attributes_;
+    Stream triangle_stream_;
+    std::vector<StreamPlan> targets_;  ///< positions of each, followed by normals if it has them
+};
 
 }  // namespace
 
-Geometry geometry_of(const Mesh& mesh, TextureData data, GlbSway sway, GlbGeometry storage,
-                     float step, bool renumber, Tables& tables) {
-    return storage == GlbGeometry::floats
-               ? float_geometry(mesh, data, sway, tables)
-               : quantized_geometry(mesh, data, sway, step, storage == GlbGeometry::compressed,
-                                    renumber, tables);
-}
-
-TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices,
-                       GlbGeometry storage, float step, Tables& tables) {
-    for (const MorphTarget& target : targets)
-        if (target.positions.size() != vertices ||
-            target.normals.size() != (targets.front().normals.empty() ? 0 : vertices))
-            throw GenerationError("a morph target has another number of vertices than its mesh");
-    TargetData out;
-    if (targets.empty()) return out;
-    const bool floats = storage == GlbGeometry::floats,
-               compressed = storage == GlbGeometry::compressed;
-    const auto bytes = std::make_shared<Bytes>();
-    bytes->reserve(targets.size() * vertices * 24);
-    const auto add_floats = [&](std::span<const glm::vec3> values, bool with_bounds) {
-        const auto* const data = reinterpret_cast<const std::uint8_t*>(values.data());
-        if (compressed)
-            return tables.stream({data, values.size_bytes()}, vertices, float_component, "VEC3", {},
-                                 true, *bytes);
-        bytes->insert(bytes->end(), data, data + values.size_bytes());
-        return with_bounds ? tables.positions(values) : tables.vectors(values);
-    };
-    for (const MorphTarget& target : targets) {
-        out.targets += out.targets.empty() ? ",\"targets\":[" : ",";
-        append(out.targets += "{\"POSITION\":",
-               floats
-                   ? add_floats(target.positions, true)
-                   : add_quantized(quantized(target.positions, step), compressed, tables, *bytes));
-        if (!target.normals.empty())
-            append(out.targets += ",\"NORMAL\":", add_floats(target.normals, false));
-        out.targets += '}';
+std::vector<PrimitiveJson> write_primitives(std::span<const PrimitivePart> parts, GlbSway sway,
+                                            GlbGeometry storage, const Parallel& parallel,
+                                            Tables& tables, Body& body) {
+    std::vector<PrimitiveJson> written;
+    written.reserve(parts.size());
+    if (storage == GlbGeometry::floats) {
+        for (const PrimitivePart& part : parts)
+            written.push_back(write_floats(*part.primitive, part.data, sway, tables, body));
+        return written;
     }
-    out.targets += ']';
-    out.bytes = bytes;
-    return out;
+    // Tasks hold the addresses of the primitives, which a deque never moves.
+    std::deque<QuantizedPrimitive> primitives;
+    std::vector<std::function<void()>> first, last;
+    for (const PrimitivePart& part : parts) {
+        QuantizedPrimitive& primitive = primitives.emplace_back(
+            *part.primitive, part.data, sway, part.step, storage == GlbGeometry::compressed);
+        primitive.add_first_tasks(first);
+        primitive.add_last_tasks(last);
+    }
+    parallel(first);
+    parallel(last);
+    for (const QuantizedPrimitive& primitive : primitives)
+        written.push_back(primitive.write(tables, body));
+    return written;
 }
 
 std::string target_weights_json(const GlbMesh& mesh) {

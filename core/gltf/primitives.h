@@ -1,55 +1,44 @@
 // Geometry, morph targets and attributes of primitives.
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/gltf/glb.h"
-#include "core/gltf/json_text.h"
 #include "core/gltf/tables.h"
+#include "core/images.h"
 
 namespace sporeprint::gltf {
-
-/// The geometry of a primitive in a file.
-struct Geometry {
-    std::shared_ptr<const Bytes> bytes;  ///< its part of the BIN chunk
-    std::string attributes;              ///< JSON members
-    std::size_t indices_accessor = 0;
-
-    void attribute(const char* name, std::size_t accessor) {
-        attributes += attributes.empty() ? "\"" : ",\"";
-        append((attributes += name) += "\":", accessor);
-    }
-};
 
 /// What a primitive has of each vertex for its images: nothing, texture coordinates, or also
 /// tangents, which a normal map in the same file needs.
 enum class TextureData { none, coordinates, all };
 
-/// Writes the geometry of a mesh.
-///
-/// data      of its images
-/// sway      where that of the mesh is written, if it has one
-/// step      of the positions; 1 for floats
-/// renumber  whether compressed vertices may have another order, which those of targets have not
-/// throws    GenerationError for a mesh that is empty or lacks what its material needs
-[[nodiscard]] Geometry geometry_of(const Mesh& mesh, TextureData data, GlbSway sway,
-                                   GlbGeometry storage, float step, bool renumber, Tables& tables);
-
-/// The morph targets of a primitive.
-struct TargetData {
-    std::shared_ptr<const Bytes> bytes;
-    std::string targets;  ///< JSON member of the primitive, with a leading comma
+/// A primitive and what is written of it.
+struct PrimitivePart {
+    const GlbPrimitive* primitive = nullptr;
+    TextureData data = TextureData::none;
+    float step = 1.0F;  ///< of the positions; 1 for floats
 };
 
-/// Writes morph targets.
+/// JSON members of a primitive.
+struct PrimitiveJson {
+    std::string geometry;  ///< attributes and indices
+    std::string targets;   ///< with a leading comma; empty for none
+};
+
+/// Writes the geometry and the targets of primitives: appends their bytes to the body and their
+/// accessors to the tables, in the order of the parts. Triangles and vertices of compressed
+/// primitives without targets have another order than those of their meshes.
 ///
-/// step    of the positions; 1 for floats
-/// throws  GenerationError for a target with another number of vertices
-[[nodiscard]] TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices,
-                                     GlbGeometry storage, float step, Tables& tables);
+/// sway    where that of a mesh is written, if it has one
+/// throws  GenerationError for a mesh that is empty or lacks what its material needs, and for a
+///         target with another number of vertices
+[[nodiscard]] std::vector<PrimitiveJson> write_primitives(std::span<const PrimitivePart> parts,
+                                                          GlbSway sway, GlbGeometry storage,
+                                                          const Parallel& parallel, Tables& tables,
+                                                          Body& body);
 
 /// Returns the weights and names of the targets of a mesh as JSON members, with a leading comma.
 ///

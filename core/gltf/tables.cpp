@@ -1,11 +1,52 @@
 #include "core/gltf/tables.h"
 
 #include <glm/common.hpp>
+#include <utility>
 
 #include "core/gltf/compression.h"
 #include "core/gltf/json_text.h"
 
 namespace sporeprint::gltf {
+
+namespace {
+
+/// Returns items of so many bytes in another order.
+template <std::size_t Size>
+Bytes ordered(const Bytes& data, std::span<const std::uint32_t> order) {
+    Bytes out(data.size());
+    std::uint8_t* at = out.data();
+    for (const std::uint32_t i : order) {
+        std::memcpy(at, data.data() + Size * i, Size);
+        at += Size;
+    }
+    return out;
+}
+
+}  // namespace
+
+void Stream::encode(std::span<const std::uint32_t> order) {
+    if (!order.empty()) data = stride == 4 ? ordered<4>(data, order) : ordered<8>(data, order);
+    set_bytes(mode ? encoded_vertices(data, items, stride) : std::move(data));
+    data = {};
+}
+
+void Stream::encode_triangles(std::span<const std::uint32_t> indices, std::size_t vertices) {
+    if (mode) return set_bytes(encoded_triangles(indices, vertices));
+    Bytes plain(indices.size() * stride);
+    std::uint8_t* at = plain.data();
+    for (const std::uint32_t index : indices)
+        if (stride == 2)
+            put(at, static_cast<std::uint16_t>(index));
+        else
+            put(at, index);
+    set_bytes(std::move(plain));
+}
+
+void Stream::set_bytes(Bytes encoded) {
+    length = encoded.size();
+    bytes = std::make_shared<Bytes>(std::move(encoded));
+    bytes->resize(padded(length));
+}
 
 std::size_t Tables::view(std::size_t length, int target) {
     views += count == 0 ? "" : ",";
@@ -23,30 +64,31 @@ std::size_t Tables::accessor(std::size_t items, int component, const char* type,
     return view(length, target);
 }
 
-std::size_t Tables::stream(std::span<const std::uint8_t> data, std::size_t items, int component,
-                           const char* type, const std::string& more, bool compressed, Bytes& out,
-                           const char* filter) {
-    const std::size_t stride = data.size() / items;
-    append_accessor(items, component, type, more);
-    append_view(data.size(), compressed, ",\"byteStride\":" + std::to_string(stride),
-                vertex_target);
-    return close_stream(data, items, compressed, out, filter);
-}
-
-std::size_t Tables::transforms(std::span<const std::uint8_t> data, std::size_t items,
-                               const char* type, bool compressed, Bytes& out) {
-    append_accessor(items, float_component, type, {});
-    append_view(data.size(), compressed, {}, 0);
-    return close_stream(data, items, compressed, out, "EXPONENTIAL");
-}
-
-std::size_t Tables::compressed_triangles(std::span<const std::uint32_t> indices,
-                                         std::size_t vertices, int component, Bytes& out) {
-    const std::size_t size = component == u16_component ? 2 : 4;
-    append_accessor(indices.size(), component, "SCALAR", {});
-    append_view(indices.size() * size, true, {}, index_target);
-    return close_compressed_view(append_encoded_triangles(indices, vertices, out), indices.size(),
-                                 size, "TRIANGLES", out);
+std::size_t Tables::stream(const Stream& stream) {
+    append_accessor(stream.items, stream.component, stream.type, stream.more);
+    const std::size_t plain = stream.items * stream.stride;
+    views += count == 0 ? "" : ",";
+    // A compressed view lies in the second buffer, which no file contains.
+    views += std::string("{\"buffer\":") + (stream.mode ? "1" : "0") + ",\"byteOffset\":";
+    append(views, stream.mode ? decompressed : binary);
+    append(views += ",\"byteLength\":", plain);
+    if (stream.target == vertex_target) append(views += ",\"byteStride\":", stream.stride);
+    if (stream.target != 0)
+        append(views += ",\"target\":", static_cast<std::size_t>(stream.target));
+    if (stream.mode) {
+        decompressed += padded(plain);
+        ((views += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"buffer\":0,";
+        append(views += "\"byteOffset\":", binary);
+        append(views += ",\"byteLength\":", stream.length);
+        append(views += ",\"byteStride\":", stream.stride);
+        append(views += ",\"count\":", stream.items);
+        ((views += ",\"mode\":\"") += stream.mode) += '"';
+        if (stream.filter) ((views += ",\"filter\":\"") += stream.filter) += '"';
+        views += "}}";
+    }
+    views += '}';
+    binary += stream.bytes->size();
+    return count++;
 }
 
 std::size_t Tables::vectors(std::span<const glm::vec3> values, const std::string& more) {
@@ -73,48 +115,6 @@ void Tables::append_accessor(std::size_t items, int component, const char* type,
     accessors += ",\"componentType\":" + std::to_string(component) + ",\"count\":";
     append(accessors, items);
     ((((accessors += ",\"type\":\"") += type) += '"') += more) += '}';
-}
-
-void Tables::append_view(std::size_t length, bool compressed, const std::string& stride,
-                         int target) {
-    views += count == 0 ? "" : ",";
-    views += std::string("{\"buffer\":") + (compressed ? "1" : "0") + ",\"byteOffset\":";
-    append(views, compressed ? decompressed : binary);
-    append(views += ",\"byteLength\":", length);
-    views += stride;
-    if (target != 0) views += ",\"target\":" + std::to_string(target);
-    if (compressed) decompressed += padded(length);
-}
-
-std::size_t Tables::close_stream(std::span<const std::uint8_t> data, std::size_t items,
-                                 bool compressed, Bytes& out, const char* filter) {
-    if (!compressed) return close_view(data, out);
-    const std::size_t stride = data.size() / items;
-    return close_compressed_view(append_encoded_vertices(data, items, stride, out), items, stride,
-                                 "ATTRIBUTES", out, filter);
-}
-
-std::size_t Tables::close_view(std::span<const std::uint8_t> data, Bytes& out) {
-    views += '}';
-    out.insert(out.end(), data.begin(), data.end());
-    out.resize(padded(out.size()));
-    binary += padded(data.size());
-    return count++;
-}
-
-std::size_t Tables::close_compressed_view(std::size_t length, std::size_t items, std::size_t stride,
-                                          const char* mode, Bytes& out, const char* filter) {
-    ((views += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"buffer\":0,";
-    append(views += "\"byteOffset\":", binary);
-    append(views += ",\"byteLength\":", length);
-    append(views += ",\"byteStride\":", stride);
-    append(views += ",\"count\":", items);
-    ((views += ",\"mode\":\"") += mode) += '"';
-    if (filter) ((views += ",\"filter\":\"") += filter) += '"';
-    views += "}}}";
-    out.resize(padded(out.size()));
-    binary += padded(length);
-    return count++;
 }
 
 }  // namespace sporeprint::gltf

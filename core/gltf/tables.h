@@ -18,7 +18,8 @@ constexpr int float_component = 5126, u8_component = 5121, u16_component = 5123,
               u32_component = 5125, i16_component = 5122, i8_component = 5120;
 constexpr int vertex_target = 34962, index_target = 34963;
 constexpr const char* normalized = ",\"normalized\":true";
-constexpr const char* meshopt_compression = "EXT_meshopt_compression";
+constexpr const char *meshopt_compression = "EXT_meshopt_compression",
+                     *attributes_mode = "ATTRIBUTES", *triangles_mode = "TRIANGLES";
 
 /// Returns a size rounded up to a multiple of four, to which views are padded.
 constexpr std::size_t padded(std::size_t size) { return (size + 3) & ~std::size_t{3}; }
@@ -36,6 +37,42 @@ void put(std::uint8_t*& at, const T& value) {
     at += sizeof value;
 }
 
+/// The items that an accessor reads, with a view of their own.
+struct Stream {
+    const char* attribute = nullptr;  ///< of a primitive or a target; null for what is none
+    std::size_t items = 0;
+    std::size_t stride = 0;  ///< bytes from one item to the next, before they are encoded
+    int component = float_component;
+    const char* type = nullptr;
+    std::string more = {};              ///< members of the accessor, with a leading comma
+    int target = 0;                     ///< of the view: vertex_target, index_target or 0
+    const char* mode = nullptr;         ///< of EXT_meshopt_compression; null for bytes as they are
+    const char* filter = nullptr;       ///< of encoded items; null for none
+    Bytes data = {};                    ///< all items, one after another, until they are encoded
+    std::shared_ptr<Bytes> bytes = {};  ///< as they lie in the file, padded
+    std::size_t length = 0;             ///< of the bytes without their padding
+
+    /// Sets the items of vertices or instances.
+    template <class Item>
+    void set_items(const std::vector<Item>& list) {
+        items = list.size();
+        stride = sizeof(Item);
+        const auto* const first = reinterpret_cast<const std::uint8_t*>(list.data());
+        data.assign(first, first + items * stride);
+    }
+
+    /// Turns the data into the bytes, encoded as the mode says.
+    ///
+    /// order  of the items in the file, as indices of those in the data; empty for all as they are
+    void encode(std::span<const std::uint32_t> order = {});
+
+    /// Sets the bytes of triangles, whose indices have 2 or 4 bytes, as the stride says.
+    void encode_triangles(std::span<const std::uint32_t> indices, std::size_t vertices);
+
+  private:
+    void set_bytes(Bytes encoded);
+};
+
 /// The tables of buffer views and accessors, as JSON. Every accessor has a view of its own, and the
 /// views of accessors precede all others, so that an accessor and its view have the same index.
 struct Tables {
@@ -49,22 +86,8 @@ struct Tables {
     std::size_t accessor(std::size_t items, int component, const char* type, std::size_t length,
                          int target = 0, const std::string& more = {});
 
-    /// Adds an accessor of vertices whose items have a stride, with a view of its own, and appends
-    /// its bytes to `out`.
-    ///
-    /// filter  of the compressed items; null for none
-    std::size_t stream(std::span<const std::uint8_t> data, std::size_t items, int component,
-                       const char* type, const std::string& more, bool compressed, Bytes& out,
-                       const char* filter = nullptr);
-
-    /// Adds an accessor of transforms of instances, which are no vertices, as floats; compressed
-    /// ones are prepared by filtered_vectors().
-    std::size_t transforms(std::span<const std::uint8_t> data, std::size_t items, const char* type,
-                           bool compressed, Bytes& out);
-
-    /// Adds an accessor of compressed triangles, and appends their bytes to `out`.
-    std::size_t compressed_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,
-                                     int component, Bytes& out);
+    /// Adds the accessor and the view of a stream, whose bytes are the next of the BIN chunk.
+    std::size_t stream(const Stream& stream);
 
     std::size_t vectors(std::span<const glm::vec3> values, const std::string& more = {});
 
@@ -74,20 +97,6 @@ struct Tables {
   private:
     void append_accessor(std::size_t items, int component, const char* type,
                          const std::string& more);
-
-    /// Begins a view. A compressed one lies in the second buffer, which no file contains.
-    void append_view(std::size_t length, bool compressed, const std::string& stride, int target);
-
-    std::size_t close_stream(std::span<const std::uint8_t> data, std::size_t items, bool compressed,
-                             Bytes& out, const char* filter);
-
-    std::size_t close_view(std::span<const std::uint8_t> data, Bytes& out);
-
-    /// Closes the view of encoded bytes at the end of `out`, and pads them.
-    ///
-    /// length  of the encoded bytes
-    std::size_t close_compressed_view(std::size_t length, std::size_t items, std::size_t stride,
-                                      const char* mode, Bytes& out, const char* filter = nullptr);
 };
 
 /// A part of the BIN chunk.

@@ -727,7 +727,7 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     add_collision(scene, colony.collision, level_name(product_name(spec), params.lod),
                   params.file.collision);
     const Estimate e = measured(spec, colony);
-    return {extras.write(scene), e.vertices, e.triangles};
+    return {extras.write(scene, execution.parallel), e.vertices, e.triangles};
 }
 
 }  // namespace sporeprint

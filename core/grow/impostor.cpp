@@ -93,10 +93,10 @@ Impostor impostor_of(const std::function<void(const Extras&)>& grow, int frame_s
     Impostor impostor;
     ImpostorAtlas atlas;
     Extras extras;
-    extras.write = [&](const GlbScene& scene) -> Body {
+    extras.write = [&](const GlbScene& scene, const Parallel& parallel) -> Body {
         throw_if_cancelled(execution);
         execution.observer(Step::draw);
-        atlas = impostor_atlas(scene, frame_side, execution.parallel);
+        atlas = impostor_atlas(scene, frame_side, parallel);
         // Highlights of a coat and sheen are smaller than a texel; light of its own is seen from afar.
         impostor.material.look.glow = scene.materials.front().look.glow;
         return {};

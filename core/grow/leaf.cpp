@@ -183,7 +183,7 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     scene.extras_json =
         dump(extras_value(extras, write(params), bounds(meshes.front()), meshes.front().triangles(),
                           {levels, params.file.lods}, wind));
-    grown.glb = extras.write(scene);
+    grown.glb = extras.write(scene, execution.parallel);
     return grown;
 }
 

@@ -249,7 +249,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     scene.extras_json = dump(extras_value(extras, write(individual.effective), box,
                                           first.triangles(), {levels, params.file.lods}, wind));
     add_collision(scene, collision, levels.front().name, params.file.collision);
-    grown.glb = extras.write(scene);
+    grown.glb = extras.write(scene, execution.parallel);
     return grown;
 }
 

@@ -71,7 +71,7 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
 [[nodiscard]] std::uint64_t bytes_of_instance(const FileOptions& file);
 
 /// Returns the bytes that a scene becomes: those of a file, or of a picture of it.
-using SceneWriter = std::function<Body(const GlbScene&)>;
+using SceneWriter = std::function<Body(const GlbScene&, const Parallel&)>;
 
 /// Returns the URLs of the images of a mushroom.
 using ImageLinks = std::function<ImageUrls(const MushroomSpec&)>;

@@ -246,7 +246,7 @@ Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
     std::vector<Collision> collisions;
     collisions.reserve(members.size());
     add_collisions(scene, members, mushroom.file.collision, collisions);
-    grown.glb = glb(scene);
+    grown.glb = glb(scene, execution.parallel);
     return grown;
 }
 

@@ -415,7 +415,7 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     if (params.file.collision != CollisionFormat::none) collision = trunk_collision(spec);
     add_collision(scene, collision, level_name(product_name(spec, atlas), params.lod),
                   params.file.collision);
-    grown.glb = extras.write(scene);
+    grown.glb = extras.write(scene, execution.parallel);
     return grown;
 }
 

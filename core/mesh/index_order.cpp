@@ -15,14 +15,13 @@ void order_for_vertex_cache(Mesh& mesh) {
 
 namespace {
 
-/// Sorts triangles by a key below `keys`; equal ones keep their order.
-template <class Key>
-std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& triangles, std::size_t keys,
-                                     const Key& key_of) {
-    std::vector<std::uint32_t> ends(keys + 1, 0), sorted(triangles.size());
-    for (const std::uint32_t triangle : triangles) ++ends[key_of(triangle) + 1];
+/// Sorts triangles by their keys, each below `most`; equal ones keep their order.
+std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& keys, std::size_t most,
+                                     const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> ends(most + 1, 0), sorted(triangles.size());
+    for (const std::uint32_t key : keys) ++ends[key + 1];
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    for (const std::uint32_t triangle : triangles) sorted[ends[key_of(triangle)]++] = triangle;
+    for (const std::uint32_t triangle : triangles) sorted[ends[keys[triangle]]++] = triangle;
     return sorted;
 }
 
@@ -30,21 +29,20 @@ std::vector<std::uint32_t> sorted_by(const std::vector<std::uint32_t>& triangles
 
 std::vector<std::uint32_t> triangles_by_last_vertex(std::span<const std::uint32_t> indices,
                                                     std::size_t vertices) {
-    const auto corners = [&](std::uint32_t triangle) {
-        return indices.subspan(3 * std::size_t{triangle}, 3);
-    };
-    std::vector<std::uint32_t> triangles(indices.size() / 3);
+    const std::size_t count = indices.size() / 3;
+    std::vector<std::uint32_t> first(count), last(count), triangles(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [low, high] =
+            std::minmax({indices[3 * i], indices[3 * i + 1], indices[3 * i + 2]});
+        first[i] = low;
+        last[i] = high;
+    }
     std::iota(triangles.begin(), triangles.end(), 0U);
-    triangles = sorted_by(triangles, vertices, [&](std::uint32_t triangle) {
-        return *std::ranges::min_element(corners(triangle));
-    });
-    triangles = sorted_by(triangles, vertices, [&](std::uint32_t triangle) {
-        return *std::ranges::max_element(corners(triangle));
-    });
+    triangles = sorted_by(last, vertices, sorted_by(first, vertices, triangles));
     std::vector<std::uint32_t> ordered;
     ordered.reserve(indices.size());
     for (const std::uint32_t triangle : triangles) {
-        const auto of = corners(triangle);
+        const auto of = indices.subspan(3 * std::size_t{triangle}, 3);
         ordered.insert(ordered.end(), of.begin(), of.end());
     }
     return ordered;

@@ -477,12 +477,12 @@ void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species)
 /// Returns what makes a small picture of a product in place of its file.
 Extras pictured(View view, Background background = Background::transparent) {
     Extras extras;
-    extras.write = [=](const GlbScene& scene) -> Body {
+    extras.write = [=](const GlbScene& scene, const Parallel& parallel) -> Body {
         PictureParams params;
         params.width = params.height = 64;
         params.view = view;
         params.background = background;
-        return {Slice(std::make_shared<const Bytes>(rendered_png(scene, params)))};
+        return {Slice(std::make_shared<const Bytes>(rendered_png(scene, params, parallel)))};
     };
     return extras;
 }

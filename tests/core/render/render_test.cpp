@@ -91,7 +91,7 @@ TEST(Render, ThreadsChangeNoPixel) {
         std::vector<std::jthread> threads;
         for (const auto& task : tasks) threads.emplace_back(task);
     };
-    extras.write = [&](const GlbScene& scene) -> Body {
+    extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
         images.push_back(rendered(scene, square(64)));
         images.push_back(rendered(scene, square(64), in_threads));
         return {};
@@ -109,7 +109,7 @@ TEST(Render, EveryViewOfEverySpeciesShowsSomethingElse) {
         spec.params.texture_size = {128};
         std::set<Bytes> pictures;
         Extras extras;
-        extras.write = [&](const GlbScene& scene) -> Body {
+        extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
             for (const View view : {View::three_quarter, View::front, View::top, View::below}) {
                 const RgbaImage image = rendered(scene, square(48, view));
                 EXPECT_GT(share_above(image, 200), 0.01) << id << ' ' << name(view);
