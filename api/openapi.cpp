@@ -13,6 +13,7 @@
 #include "api/http/schemas.h"
 #include "api/products/mix.h"
 #include "core/params/describe.h"
+#include "core/plant/wood.h"
 
 namespace sporeprint::api {
 
@@ -85,6 +86,13 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
     if (has("{a}")) {
         parameters.push(path_parameter("a", "Id of the first species.", text, example));
         parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
+    }
+    if (has("{wood}")) {
+        Value names = Value::array();
+        for (const Substrate wood : all_woods) names.push(name(wood));
+        parameters.push(path_parameter("wood", "The tree that the wood is of.",
+                                       object({{"type", "string"}, {"enum", names}}),
+                                       name(all_woods.front())));
     }
     if (has("{name}"))
         parameters.push(path_parameter("name", "Name of the file.", text, "favicon.svg"));

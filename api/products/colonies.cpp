@@ -10,6 +10,7 @@
 #include "api/products/pictures.h"
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
+#include "api/products/wood.h"
 #include "core/grow/colony.h"
 #include "core/grow/impostor.h"
 #include "core/grow/names.h"
@@ -74,6 +75,19 @@ namespace {
 /// Approximate vertices of the mesh that measures the space of an individual: its cap at lod=1.
 constexpr std::uint64_t spacing_vertices = 3000;
 
+/// Returns the images of the wood that a colony stands on; nothing if it stands on none.
+///
+/// spec  at_level() of a request
+std::optional<WoodPaint> wood_paint_of(const ColonySpec& spec, const Atlas& atlas) {
+    try {
+        const Substrate substrate = colony_traits(spec, atlas).substrate;
+        if (substrate == Substrate::none || spec.params.lod == impostor_lod) return std::nullopt;
+        return WoodPaint{substrate, {spec.params.texture_size >> spec.params.lod}};
+    } catch (const InvalidInput&) {
+        return std::nullopt;  // the estimate reports the problem
+    }
+}
+
 /// Returns the cost of generating a request with this estimate, without that of its correspondence.
 Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
              const Atlas& atlas) {
@@ -88,9 +102,12 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded || estimated.texels == 0) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    const std::optional<WoodPaint> wood = wood_paint_of(spec, atlas);
+    const std::uint64_t texels = estimated.texels / (atlases + (wood ? 1 : 0));
     for (int set = 0; set < image_sets(spec.params.variants); ++set)
-        cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
-                               estimated.texels / atlases);
+        cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = atlases * texels},
+                               texels);
+    if (wood) cost += cost_of_images(spec.params.file, cost_of_paint(*wood), texels);
     return cost;
 }
 
@@ -127,7 +144,7 @@ const Individual& resolved_individual(const Context& context, const ColonySpec& 
 
 /// Returns an approximate estimate of a request whose individuals are not resolved yet, without
 /// roots, which cannot be estimated.
-Estimate guessed(const ColonySpec& spec) {
+Estimate guessed(const ColonySpec& spec, const Atlas& atlas) {
     const ColonyParams& params = spec.params;
     const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
     Estimate guess;
@@ -138,7 +155,8 @@ Estimate guessed(const ColonySpec& spec) {
                            static_cast<std::uint64_t>(params.count) * 400) >>
                           (2 * std::min(lod, 2));
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
-    guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    guess.texels = images * (static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec))) +
+                             (wood_paint_of(spec, atlas) ? 1 : 0));
     guess.bytes =
         60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
     guess.triangles = 2 * guess.vertices;
@@ -187,7 +205,8 @@ Cost Colonies::search(const ColonySpec& spec, const Atlas& atlas) {
 
 std::optional<Cost> Colonies::guess(const ColonySpec& spec, Product product, const Atlas& atlas) {
     if (shows_roots(spec, atlas)) return std::nullopt;
-    return cost_with_impostor(spec, guessed(spec), guessed(impostor_source(spec)), product, atlas);
+    return cost_with_impostor(spec, guessed(spec, atlas), guessed(impostor_source(spec), atlas),
+                              product, atlas);
 }
 
 std::uint64_t Colonies::instances_of_each(const ColonySpec& spec) {
@@ -215,10 +234,15 @@ ImageUrls Colonies::variant_urls(const Context& context, const ColonySpec& spec,
 }
 
 Body Colonies::grow(const Context& context, const ColonySpec& spec, Resolved& resolved,
-                    const Extras& extras, int, const ExecutionContext& execution) {
+                    const Extras& extras, int depth, const ExecutionContext& execution) {
     execution.observer(Step::resolve);
     const Individual& typical = resolved_individual(context, spec, execution.caches, resolved);
-    return grow_colony(spec, typical, *context.atlas, extras, execution).glb;
+    Extras with_wood = extras;
+    if (has_addresses(spec.params.textures))
+        if (const auto wood =
+                wood_paint_of(at_level(spec, typical, *context.atlas), *context.atlas))
+            with_wood.wood_urls = references_from(depth, wood_image_urls("colonies", *wood));
+    return grow_colony(spec, typical, *context.atlas, with_wood, execution).glb;
 }
 
 Value Colonies::describe(const Context& context, const ColonySpec& requested, Resolved& resolved,
@@ -265,6 +289,13 @@ Plan plan_image_from_url(RouteCall& call) {
     return plan_mushroom_image(
         call, "colonies", Format,
         without_parameters_of_model<SurfaceAddress, ColonyParams>(call.target.query));
+}
+
+template <ImageFormat Format>
+Plan plan_wood_image_from_url(RouteCall& call) {
+    return plan_wood_image(
+        call, "colonies", Format,
+        without_parameters_of_model<WoodAddress, ColonyParams>(call.target.query));
 }
 
 Plan plan_from_body(RouteCall& call) {
@@ -347,6 +378,23 @@ constexpr Route routes[] = {
      .media_type = "image/webp",
      .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
      .plan = plan_image_from_url<ImageFormat::webp>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/colonies/wood/{wood}/{image}.jpg",
+     .id = "get_wood_image",
+     .summary = "One image of the wood that a tier stands on; what textures=linked points to, "
+                "beside those of its atlas.",
+     .media_type = "image/jpeg",
+     .query_schema = [](const Atlas&) { return schema<WoodAddress>(); },
+     .plan = plan_wood_image_from_url<ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/colonies/wood/{wood}/{image}.webp",
+     .id = "get_wood_image_webp",
+     .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
+     .media_type = "image/webp",
+     .query_schema = [](const Atlas&) { return schema<WoodAddress>(); },
+     .plan = plan_wood_image_from_url<ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

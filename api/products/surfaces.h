@@ -34,7 +34,7 @@ struct SurfaceAddress {
     double age = 38.0 / 64.0;
     int size = 0;
     double variation = 0.5;
-    Choice<16, 32, 64, 128, 256, 512, 1024, 2048> texture_size{1024};
+    ImageSide texture_size{1024};
     int lod = 0;
     PaintedAmounts ornaments;
     HymeniumOf<Maybe> hymenium;

@@ -58,6 +58,22 @@ void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, co
     });
 }
 
+/// Returns what belongs to the word that a text mentions first.
+///
+/// words   each with a text
+/// what    the member that belongs to it
+/// others  what is returned if the text mentions none
+template <class Words, class Word, class What>
+What first_mentioned(std::string_view text, const Words& words, What Word::*what, What others) {
+    std::size_t first = std::string_view::npos;
+    for (const Word& word : words)
+        if (const std::size_t at = text.find(word.text); at < first) {
+            first = at;
+            others = word.*what;
+        }
+    return others;
+}
+
 }  // namespace
 
 Habit habit_of(const Facts& facts) {
@@ -80,15 +96,26 @@ Habit habit_of(const Facts& facts) {
                                                     {"swarm", Habit::troop},
                                                     {"scattered", Habit::troop},
                                                     {"gregarious", Habit::troop}}};
-    const std::string_view text = facts.habit.view();
-    Habit found = Habit::troop;
-    std::size_t first = std::string_view::npos;
-    for (const Word& word : words)
-        if (const std::size_t at = text.find(word.text); at < first) {
-            first = at;
-            found = word.habit;
-        }
-    return is_lateral(facts.form) ? Habit::tier : found;
+    return is_lateral(facts.form)
+               ? Habit::tier
+               : first_mentioned(facts.habit.view(), words, &Word::habit, Habit::troop);
+}
+
+Substrate wood_of(const Facts& facts) {
+    struct Word {
+        std::string_view text;
+        Substrate wood;
+    };
+    static constexpr std::array<Word, 9> words = {{{"beech", Substrate::beech},
+                                                   {"birch", Substrate::birch},
+                                                   {"oak", Substrate::oak},
+                                                   {"poplar", Substrate::poplar},
+                                                   {"willow", Substrate::poplar},
+                                                   {"spruce", Substrate::spruce},
+                                                   {"pine", Substrate::spruce},
+                                                   {"conifer", Substrate::spruce},
+                                                   {"broad-leaved", Substrate::beech}}};
+    return first_mentioned(facts.habitat.view(), words, &Word::wood, Substrate::beech);
 }
 
 ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
@@ -112,6 +139,7 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
             (part.weight == most->weight && part.id < most->id)) {
             most = &part;
             traits.habit = habit_of(facts);
+            traits.substrate = wood_of(facts);
         }
     }
     if (spec.mix.empty()) report(problems, "mix", "names no species");
@@ -127,6 +155,11 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
         report(problems, "/roots", "only habit=rooted has roots to show");
     if (params.trunk_radius && traits.habit != Habit::tier)
         report(problems, "/trunk_radius", "only habit=tier has a trunk");
+    if (params.substrate.value_or(Substrate::none) != Substrate::none &&
+        traits.habit != Habit::tier)
+        report(problems, "/substrate", "only habit=tier has a trunk");
+    traits.substrate =
+        traits.habit == Habit::tier ? params.substrate.value_or(traits.substrate) : Substrate::none;
     report_given(params.growth, traits.habit == Habit::rooted, traits.capped,
                  [&](std::string_view name, const char* why) {
                      report(problems, '/' + std::string(name), why);

@@ -7,6 +7,7 @@
 #include "core/atlas/atlas.h"
 #include "core/colony/root_system.h"
 #include "core/individual/mushroom_spec.h"
+#include "core/plant/wood.h"
 
 namespace sporeprint {
 
@@ -70,6 +71,7 @@ struct ColonyParams {
     double cap_scale = 1.0;
     std::optional<RootsShown> roots;
     std::optional<double> trunk_radius;
+    std::optional<Substrate> substrate;
     ColonyRootsOf<Maybe> growth;
     int lod = 0;
     std::optional<int> triangles;
@@ -131,6 +133,11 @@ struct ColonyParams {
                                      .doc = "Of the trunk that a tier stands on, before size; its "
                                             "surface touches the origin from behind.",
                                      .group = "placement"});
+        visit(&P::substrate, Info{.name = "substrate",
+                                  .doc = "What a tier stands on: a piece of wood with the bark of "
+                                         "this tree, by default of one that the species grows on, "
+                                         "or nothing.",
+                                  .group = "placement"});
         visit(&P::growth, Info{.name = ""});
         visit(&P::lod, info_of<M>("lod"));
         visit(&P::triangles, triangles_info);
@@ -160,6 +167,9 @@ struct ColonySpec {
 /// Returns the habit that a species' facts mention first; a troop if they mention none.
 [[nodiscard]] Habit habit_of(const Facts& facts);
 
+/// Returns the wood that a species' facts mention first; that of beech if they mention none.
+[[nodiscard]] Substrate wood_of(const Facts& facts);
+
 /// The properties of a colony that follow from the species of its mix.
 struct ColonyTraits {
     Habit habit = Habit::troop;  ///< requested, or of the species with the largest weight
@@ -167,6 +177,7 @@ struct ColonyTraits {
     bool lateral = false;        ///< individuals grow from a vertical surface
     std::uint32_t seed = 1;      ///< of its layout: from that of the request and its set of species
     RootsShown roots = RootsShown::buried;
+    Substrate substrate = Substrate::none;  ///< wood behind a tier
     bool operator==(const ColonyTraits&) const = default;
 };
 

@@ -213,10 +213,7 @@ class Layout {
 
     ColonySite tier(double trunk) const {
         ColonySite site;
-        const double step = std::min((traits_.capped ? 2.1 : 1.9) * cap_ / trunk, 0.7 * pi);
-        const int in_row = std::max(1, static_cast<int>(0.9 * pi / step));
-        const double level =
-            traits_.lateral ? std::max(0.75 * whole_height_, 0.55 * cap_) : 1.9 * cap_;
+        const auto [in_row, step, level] = tier_rows(traits_, cap_, whole_height_, trunk);
         // Rows follow a crack in the bark: they rise to one side.
         const double slope =
             0.25 * Random(traits_.seed, purposes::colony_patches, 0).symmetric() / step;
@@ -344,6 +341,15 @@ ColonyRoots colony_growth(const ColonyParams& params, const ColonyTraits& traits
 double trunk_radius(const ColonyParams& params, const StemFit& fit) {
     return params.trunk_radius.value_or(
         std::min(std::max(2.2 * fit.cap_radius * params.cap_scale, 0.03), 5.0));
+}
+
+TierRows tier_rows(const ColonyTraits& traits, double cap_radius, double whole_height,
+                   double trunk) {
+    // Brackets of a row touch, and those of the next one stand close above the gaps between them.
+    const double apart = traits.capped ? 2.1 : traits.lateral ? 1.7 : 1.9;
+    const double step = std::min(apart * cap_radius / trunk, 0.7 * pi);
+    return {std::max(1, static_cast<int>(0.9 * pi / step)), step,
+            traits.lateral ? std::max(0.6 * whole_height, 0.4 * cap_radius) : 1.9 * cap_radius};
 }
 
 ColonySite colony_site(const ColonyParams& params, const ColonyTraits& traits,

@@ -51,6 +51,22 @@ struct ColonySite {
 /// from the radius of the cap.
 [[nodiscard]] double trunk_radius(const ColonyParams& params, const StemFit& fit);
 
+/// The rows of a tier: individuals beside each other, and the height from one row to the next in
+/// metres at size 1.
+struct TierRows {
+    int in_row = 1;
+    double step = 0.0;  ///< angle between individuals of a row, radians
+    double height = 0.0;
+};
+
+/// Returns the rows of a tier on a trunk.
+///
+/// cap_radius    of the oldest individual as it stands in the colony, metres at size 1
+/// whole_height  of it with its stem
+/// trunk         trunk_radius()
+[[nodiscard]] TierRows tier_rows(const ColonyTraits& traits, double cap_radius, double whole_height,
+                                 double trunk);
+
 /// Dimensions of typical individuals of a colony, metres.
 struct ColonyFits {
     StemFit oldest, youngest;

@@ -15,6 +15,7 @@
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"
+#include "core/grow/wood.h"
 #include "core/individual/proportion.h"
 #include "core/math/direction.h"
 #include "core/math/purposes.h"
@@ -118,11 +119,14 @@ void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std:
     e.bytes += place * members + 900 * static_cast<std::uint64_t>(spec.params.distinct);
 }
 
-void add_images(Estimate& e, const ColonySpec& spec) {
+void add_images(Estimate& e, const ColonySpec& spec, Substrate substrate) {
     const std::uint64_t texels = image_texels(spec);
-    e.texels = texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    add_image_bytes(e, static_cast<std::uint64_t>(image_sets(spec.params.variants)) * texels / 3,
-                    spec.params.textures, spec.params.file);
+    const std::uint64_t woods = substrate == Substrate::none ? 0 : 1;
+    e.texels =
+        texels * (woods + static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec))));
+    add_image_bytes(
+        e, (woods + static_cast<std::uint64_t>(image_sets(spec.params.variants))) * texels / 3,
+        spec.params.textures, spec.params.file);
     if (has_impostor(spec.params.lod, spec.params.file))
         add_impostor(e, spec.params.texture_size, spec.params.file);
 }
@@ -130,8 +134,29 @@ void add_images(Estimate& e, const ColonySpec& spec) {
 void add_solids(Estimate& e, const ColonySpec& spec) {
     // A stem has one to six capsules, those of the young ones fewer.
     const auto members = static_cast<std::uint64_t>(spec.params.count);
-    add_solid_bytes(e, static_cast<std::uint64_t>(spec.params.distinct), 2 * members,
+    add_solid_bytes(e, 1 + static_cast<std::uint64_t>(spec.params.distinct), 2 * members,
                     spec.params.file);
+}
+
+/// Returns the piece of wood that a tier stands on, metres at size 1.
+///
+/// lowest, highest  middles of its members
+WoodPiece wood_of(const ColonyParams& params, const ColonyTraits& traits, const StemFit& fit,
+                  double lowest, double highest) {
+    const double radius = trunk_radius(params, fit);
+    const double beyond = std::max(1.2 * std::max(fit.height, fit.cap_radius), 0.5 * radius);
+    return {radius, lowest - beyond, highest + beyond, traits.seed};
+}
+
+/// Returns about how many vertices and triangles the wood of a colony has.
+MeshCount expected_wood(const ColonySpec& spec, const ColonyTraits& traits, const StemFit& fit,
+                        int lod) {
+    if (traits.substrate == Substrate::none) return {};
+    const TierRows rows = tier_rows(traits, fit.cap_radius * spec.params.cap_scale, fit.height,
+                                    trunk_radius(spec.params, fit));
+    const double height =
+        rows.height * std::ceil(static_cast<double>(spec.params.count) / rows.in_row);
+    return wood_count(wood_of(spec.params, traits, fit, 0.0, height), lod, textured(spec));
 }
 
 /// Returns about how many vertices and triangles the meshes of a level of detail have.
@@ -149,12 +174,14 @@ MeshCount expected_count(const ColonySpec& spec, const Individual& typical,
         static_cast<std::size_t>(traits.roots == RootsShown::shown ? 0.6 * nodes : nodes);
     const double quads =
         nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, lod)));
-    return {distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads),
-            distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads)};
+    const MeshCount wood = expected_wood(spec, traits, fit_of(typical, traits), lod);
+    return {distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads) + wood.vertices,
+            distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads) + wood.triangles};
 }
 
-MeshCount count_of(const Mesh& skin, std::span<const Mesh> models) {
-    MeshCount count{skin.positions.size(), skin.triangles()};
+MeshCount count_of(const Mesh& skin, const Mesh& wood, std::span<const Mesh> models) {
+    MeshCount count{skin.positions.size() + wood.positions.size(),
+                    skin.triangles() + wood.triangles()};
     for (const Mesh& model : models) {
         count.vertices += model.positions.size();
         count.triangles += model.triangles();
@@ -167,7 +194,10 @@ ColonyParams effective_params(ColonyParams params, const ColonyTraits& traits,
                               const ColonyRoots& growth, const StemFit& fit) {
     params.habit = traits.habit;
     params.roots = traits.roots;
-    if (traits.habit == Habit::tier) params.trunk_radius = trunk_radius(params, fit);
+    if (traits.habit == Habit::tier) {
+        params.trunk_radius = trunk_radius(params, fit);
+        params.substrate = traits.substrate;
+    }
     // Only those that the habit has.
     const bool rooted = traits.habit == Habit::rooted, stems = traits.capped;
     if (rooted) {
@@ -375,9 +405,14 @@ void add_member_nodes(GlbScene& scene, const Colony& colony,
 
 /// Adds the meshes and nodes of one level of detail.
 ///
-/// name  level_name()
-void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin,
-                std::span<const Mesh> models, const std::string& name) {
+/// wood_material  index of that of the wood
+/// name           level_name()
+void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin, const Mesh& wood,
+                std::span<const Mesh> models, std::size_t wood_material, const std::string& name) {
+    if (!wood.positions.empty()) {
+        scene.nodes.push_back({.name = name + "_wood", .mesh = scene.meshes.size()});
+        scene.meshes.push_back({name + "_wood", {{&wood, wood_material, {}, {}}}});
+    }
     if (!skin.positions.empty()) {
         scene.nodes.push_back({.name = name + "_stems", .mesh = scene.meshes.size()});
         scene.meshes.push_back({name + "_stems", {{&skin, 0, {}, variant_materials(scene)}}});
@@ -454,6 +489,17 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
     return models;
 }
 
+/// Returns the piece of wood behind the members of a tier, metres at size 1.
+WoodPiece wood_below(const std::vector<ColonyMember>& members, const ColonyParams& params,
+                     const ColonyTraits& traits, const StemFit& fit) {
+    double lowest = 0.0, highest = 0.0;
+    for (const ColonyMember& member : members) {
+        lowest = std::min(lowest, member.pose.at.y);
+        highest = std::max(highest, member.pose.at.y);
+    }
+    return wood_of(params, traits, fit, lowest, highest);
+}
+
 /// Returns an individual of the age of one of the models, without its variation.
 Individual average_individual(const ColonySpec& spec, int which, const Atlas& atlas,
                               const Caches& caches) {
@@ -498,7 +544,7 @@ Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas
         add_level(e, spec, count.vertices, count.triangles,
                   static_cast<std::uint64_t>(params.count));
     }
-    add_images(e, spec);
+    add_images(e, spec, traits.substrate);
     add_solids(e, spec);
     return e;
 }
@@ -530,9 +576,10 @@ Estimate measured(const ColonySpec& spec, const Colony& colony) {
     const auto add = [&](const MeshCount& count) {
         add_level(e, spec, count.vertices, count.triangles, colony.members.size());
     };
-    if (spec.params.lod != impostor_lod) add(count_of(colony.skin, colony.models));
-    for (const ColonyLevel& level : colony.farther) add(count_of(level.skin, level.models));
-    add_images(e, spec);
+    if (spec.params.lod != impostor_lod) add(count_of(colony.skin, colony.wood, colony.models));
+    for (const ColonyLevel& level : colony.farther)
+        add(count_of(level.skin, level.wood, level.models));
+    add_images(e, spec, colony.effective.substrate.value_or(Substrate::none));
     add_solids(e, spec);
     return e;
 }
@@ -587,6 +634,20 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     colony.skin = skin(params.lod);
     for (std::size_t i = 0; i < colony.farther.size(); ++i)
         colony.farther[i].skin = skin(params.lod + 1 + static_cast<int>(i));
+    std::optional<WoodPiece> piece;
+    if (traits.substrate != Substrate::none)
+        piece = wood_below(colony.members, params, traits, fit);
+    const auto wood = [&](int lod, bool with_texture) {
+        Mesh made = wood_mesh(*piece, lod, with_texture);
+        if (params.file.wind != WindFormat::none) made.sway.resize(made.positions.size());
+        for (glm::vec3& place : made.positions) place *= static_cast<float>(params.size);
+        return made;
+    };
+    if (piece) {
+        colony.wood = wood(params.lod, textured(spec));
+        for (std::size_t i = 0; i < colony.farther.size(); ++i)
+            colony.farther[i].wood = wood(params.lod + 1 + static_cast<int>(i), textured(spec));
+    }
     colony.effective = effective_params(params, traits, growth, fit);
     colony.junction = fit.radius;
 
@@ -598,6 +659,11 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     }
     if (params.file.collision != CollisionFormat::none)
         colony.collision = colony_collision(site, colony.members, models.shapes, params, traits);
+    if (piece && params.file.collision != CollisionFormat::none) {
+        const Mesh solid = wood(last_lod, false);
+        for (CollisionShape& shape : fitted_shapes("wood", solid.positions, solid.indices))
+            colony.collision.add(std::move(shape));
+    }
     for (std::size_t i = 0; i < shown.size(); ++i) {
         if (shown[i]) continue;
         colony.models[i] = {};
@@ -615,7 +681,8 @@ Bounds bounds(const Colony& colony) {
         box.min = glm::min(box.min, at);
         box.max = glm::max(box.max, at);
     };
-    for (const glm::vec3& at : colony.skin.positions) add(at);
+    for (const Mesh* mesh : {&colony.skin, &colony.wood})
+        for (const glm::vec3& at : mesh->positions) add(at);
     for (const ColonyMember& member : colony.members)
         for (const glm::vec3& at : colony.models[member.model].positions)
             add(glm::vec3(member.pose.world(glm::dvec3(at))));
@@ -623,7 +690,7 @@ Bounds bounds(const Colony& colony) {
 }
 
 std::uint64_t instanced_triangles(const Colony& colony) {
-    std::uint64_t triangles = colony.skin.triangles();
+    std::uint64_t triangles = colony.skin.triangles() + colony.wood.triangles();
     for (const ColonyMember& member : colony.members)
         triangles += colony.models[member.model].triangles();
     return triangles;
@@ -681,7 +748,7 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     const Bounds box = bounds(colony);
     GlbScene scene;
     set_options(scene, params.file);
-    scene.stands_on_ground = !colony_traits(spec, atlas).lateral;
+    scene.stands_on_ground = colony_traits(spec, atlas).habit != Habit::tier;
     const MushroomSpec painted = paint_mushroom_spec(spec);
     const auto painting_of = [&](const MushroomSpec& one) {
         return paint_spec_of(spec, one, atlas, execution.caches);
@@ -697,6 +764,15 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
         variant_images = add_variants(scene, variants_of(painted, typical), params.textures,
                                       params.file, extras, execution, painting_of);
     }
+    const std::size_t wood_material = scene.materials.size();
+    EmbeddedImages images_of_wood;
+    if (has_meshes && !colony.wood.positions.empty()) {
+        const WoodPaint paint{*colony.effective.substrate, {params.texture_size >> params.lod}};
+        scene.materials.push_back({.name = wood_name(paint, params.textures), .repeats_u = true});
+        images_of_wood = attach_images(
+            scene.materials.back(), params.textures, params.file, extras.wood_urls, execution,
+            [&](ImageFormat format) { return painted_images(paint, execution, format); });
+    }
     execution.observer(Step::pack);
     std::vector<Level> levels{{params.lod}};
     if (params.file.lods != Lods::single) {
@@ -704,8 +780,9 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
         const std::size_t meshes = levels.size() - (impostor ? 1 : 0);
         for (std::size_t i = 0; i < meshes; ++i) {
             const MeshCount count =
-                i == 0 ? count_of(colony.skin, colony.models)
-                       : count_of(colony.farther[i - 1].skin, colony.farther[i - 1].models);
+                i == 0 ? count_of(colony.skin, colony.wood, colony.models)
+                       : count_of(colony.farther[i - 1].skin, colony.farther[i - 1].wood,
+                                  colony.farther[i - 1].models);
             levels[i].vertices = count.vertices;
             levels[i].triangles = count.triangles;
         }
@@ -719,10 +796,12 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
                            if (impostor && i + 1 == levels.size())
                                add_cards(scene, *impostor, product_name(spec), name);
                            else if (i == 0)
-                               add_colony(scene, colony, colony.skin, colony.models, name);
+                               add_colony(scene, colony, colony.skin, colony.wood, colony.models,
+                                          wood_material, name);
                            else
                                add_colony(scene, colony, colony.farther[i - 1].skin,
-                                          colony.farther[i - 1].models, name);
+                                          colony.farther[i - 1].wood, colony.farther[i - 1].models,
+                                          wood_material, name);
                        });
     add_collision(scene, colony.collision, level_name(product_name(spec), params.lod),
                   params.file.collision);

@@ -36,13 +36,14 @@ namespace sporeprint {
 
 /// The meshes of a colony at a level of detail below the requested one.
 struct ColonyLevel {
-    Mesh skin;
+    Mesh skin, wood;
     std::vector<Mesh> models;
 };
 
 /// The parts of a colony; each mesh is stored once.
 struct Colony {
     Mesh skin;                          ///< roots and stems; empty where there are none
+    Mesh wood;                          ///< what a tier stands on; empty for none
     std::vector<Mesh> models;           ///< caps or whole individuals; unused ones are empty
     std::vector<ColonyMember> members;  ///< with the poses of the file
     std::vector<ColonyLevel> farther;  ///< further levels of detail of the file, with these members

@@ -190,6 +190,11 @@ std::string bark_name(const std::string& preset, const TreePaint& paint, Texture
     return shared_name(preset.empty() ? "tree" : preset, "_bark", canonical_text(paint), textures);
 }
 
+std::string wood_name(const WoodPaint& paint, Textures textures) {
+    return std::string(name(paint.substrate)) + "_wood_" +
+           std::to_string(paint.texture_size.value) + '_' + name(textures);
+}
+
 std::string leaf_material_name(const std::string& preset, const LeafPaint& paint,
                                Textures textures) {
     return shared_name(preset.empty() ? "own" : preset, "_leaf", canonical_text(paint), textures);

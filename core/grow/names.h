@@ -14,6 +14,7 @@
 #include "core/params/shared_params.h"
 #include "core/plant/leaf_spec.h"
 #include "core/plant/tree_spec.h"
+#include "core/plant/wood_image.h"
 
 namespace sporeprint {
 
@@ -58,6 +59,9 @@ namespace sporeprint {
 /// mix    of all tiles; empty for an atlas of several
 /// tiles  skin_name() of each
 [[nodiscard]] std::string atlas_name(const Mix& mix, const std::vector<std::string>& tiles);
+
+/// Returns the name of the material of wood that fungi stand on: "birch_wood_1024_embedded".
+[[nodiscard]] std::string wood_name(const WoodPaint& paint, Textures textures);
 
 /// Returns the name of a material that all individuals with the same images share, from the preset
 /// and a hash of everything that the images depend on: "broadleaf_bark_5b0c9a1e".

@@ -80,6 +80,7 @@ struct Extras {
     std::string canonical;         ///< canonical URL of the request; empty for none
     ImageUrls image_urls;          ///< if has_addresses(textures)
     ImageLinks variant_urls = {};  ///< of variants
+    ImageUrls wood_urls = {};      ///< of what a colony stands on, likewise
     SceneWriter write = glb;       ///< called once
 };
 

@@ -72,6 +72,7 @@ enum Purpose : std::uint32_t {
     unevenness = 130,      ///< of outlines and stems
     colony_layout = 131,   ///< seed of the layout of a colony
     colony_patches = 132,  ///< middles of the patches of a troop; slope of the rows of a tier
+    wood = 133,            ///< bumps of a piece of wood
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -144,6 +145,7 @@ enum Purpose : std::uint32_t {
         case unevenness:
         case colony_layout:
         case colony_patches:
+        case wood:
             return 1;
     }
     return 0;

@@ -178,6 +178,8 @@ constexpr const char* name(WindFormat wind) {
 
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
+/// The side of an image at any level of detail, texels.
+using ImageSide = Choice<16, 32, 64, 128, 256, 512, 1024, 2048>;
 
 inline constexpr Info size_info{
     .name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."};

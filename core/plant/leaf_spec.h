@@ -63,9 +63,6 @@ struct LeafParams {
 };
 static_assert(well_described<LeafParams>());
 
-/// The side of an image at any level of detail, texels.
-using ImageSide = Choice<16, 32, 64, 128, 256, 512, 1024, 2048>;
-
 /// Everything that the images of a leaf depend on.
 struct LeafPaint {
     std::uint32_t seed = 1;

@@ -105,6 +105,28 @@ TEST_F(ColoniesTest, LinkImagesThatAreThoseTheyWouldEmbed) {
         << "the very bytes of the image inside the file";
 }
 
+TEST_F(ColoniesTest, LinkTheImagesOfTheWoodThatTheyStandOn) {
+    const std::string tier = "/v1/colonies/fomes_fomentarius.glb?count=3&texture_size=128&lod=2";
+    const Response embedded = ask(tier);
+    std::vector<std::string> linked;
+    for (const std::string& address : linked_images(ask(tier + "&textures=linked"), tier))
+        if (address.find("/wood/") != std::string::npos) linked.push_back(address);
+    ASSERT_EQ(linked.size(), 3U);
+    for (const std::string& address : linked) {
+        EXPECT_TRUE(address.starts_with("/v1/colonies/wood/birch/")) << address;
+        const Response image = ask(address);
+        ASSERT_EQ(image.status, 200) << address << text_of(image);
+        EXPECT_EQ(header(image, "Content-Location"), address);
+        EXPECT_EQ(header(image, "Cache-Control"), "public, max-age=31536000, immutable");
+        EXPECT_NE(text_of(embedded).find(text_of(image)), std::string::npos) << address;
+    }
+    // Loaders may append the query of the model.
+    EXPECT_EQ(ask("/v1/colonies/wood/birch/orm.webp?side=32&count=3&lod=2").status, 200);
+    EXPECT_EQ(
+        text_of(ask("/v1/colonies/wood/birch/orm.jpg?v=old")).find("410") != std::string::npos,
+        true);
+}
+
 TEST_F(ColoniesTest, RepeatMeshesByExtensionOnRequest) {
     const std::string nodes = text_of(ask(small("&textures=none")));
     const std::string gpu = text_of(ask(small("&textures=none&instancing=gpu")));
@@ -129,6 +151,10 @@ TEST_F(ColoniesTest, ThatCannotBeAreRefusedByNameBeforeAnyWork) {
     refused(422, tuft + "?depth=9", "depth");
     refused(422, tuft + "?roots=shown", "roots");
     refused(422, "/v1/colonies/trametes_versicolor.glb?habit=ring", "habit");
+    refused(422, tuft + "?substrate=oak", "substrate");
+    refused(400, "/v1/colonies/trametes_versicolor.glb?substrate=steel", "substrate");
+    refused(404, "/v1/colonies/wood/brich/normal.jpg", "wood");
+    refused(400, "/v1/colonies/wood/birch/normal.jpg?side=100", "side");
     refused(422, "/v1/colonies/lycoperdon_perlatum.glb?cap_scale=2", "cap_scale");
     refused(422, tuft + "?habit=rooted&depth=60&branch_distance=0.005", "branch_distance");
     expect_problem(ask(post(R"({"count":3})", "/v1/colonies.glb")), 400);

@@ -76,6 +76,22 @@ TEST(ColonySpec, RootsAreShownWhereThereAreSome) {
     EXPECT_EQ(colony_traits(spec, atlas()).roots, RootsShown::buried);
 }
 
+TEST(ColonySpec, TiersStandOnTheWoodThatIsRecorded) {
+    const auto wood = [](const std::string& id, std::optional<Substrate> given = {}) {
+        ColonySpec spec = colony_of(id);
+        spec.params.substrate = given;
+        return colony_traits(spec, atlas()).substrate;
+    };
+    EXPECT_EQ(wood("fomes_fomentarius"), Substrate::birch);
+    EXPECT_EQ(wood("pleurotus_ostreatus"), Substrate::beech);
+    EXPECT_EQ(wood("trametes_versicolor"), Substrate::beech) << "of broad-leaved trees";
+    EXPECT_EQ(wood("tremella_mesenterica"), Substrate::oak);
+    EXPECT_EQ(wood("fomes_fomentarius", Substrate::none), Substrate::none);
+    EXPECT_EQ(wood("fomes_fomentarius", Substrate::spruce), Substrate::spruce);
+    EXPECT_EQ(wood("armillaria_mellea"), Substrate::none) << "no tier";
+    EXPECT_EQ(wood("armillaria_mellea", Substrate::none), Substrate::none);
+}
+
 TEST(ColonySpec, IncompatibleParametersAreRefusedByName) {
     const auto problems = [](const std::string& id, auto change) {
         ColonySpec spec = colony_of(id);
@@ -92,6 +108,8 @@ TEST(ColonySpec, IncompatibleParametersAreRefusedByName) {
                       "/stem_decay", "habit=rooted"));
     EXPECT_TRUE(names(problems("armillaria_mellea", [](auto& p) { p.trunk_radius = 0.2; }),
                       "/trunk_radius", "habit=tier"));
+    EXPECT_TRUE(names(problems("armillaria_mellea", [](auto& p) { p.substrate = Substrate::oak; }),
+                      "/substrate", "habit=tier"));
     EXPECT_TRUE(names(problems("lycoperdon_perlatum", [](auto& p) { p.cap_scale = 2.0; }),
                       "/cap_scale", "whole"));
     EXPECT_TRUE(names(problems("lycoperdon_perlatum", [](auto& p) { p.growth.stem_height = 0.1; }),

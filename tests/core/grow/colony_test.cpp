@@ -61,8 +61,9 @@ TEST_P(EveryColony, ReadsBackFromItsFileAtEveryLevel) {
         const Grown colony = grown(spec);
         const ReadScene found = expect_scene(joined(colony.glb));
         EXPECT_TRUE(found.required.empty());
-        EXPECT_LE(found.meshes.size(), 4U) << "three caps and a skin";
-        EXPECT_EQ(found.materials.size(), 1U);
+        const bool has_wood = colony_traits(spec, atlas()).substrate != Substrate::none;
+        EXPECT_LE(found.meshes.size(), has_wood ? 5U : 4U) << "three caps, a skin and wood";
+        EXPECT_EQ(found.materials.size(), has_wood ? 2U : 1U);
         std::size_t vertices = 0, triangles = 0;
         for (const auto& mesh : found.meshes) {
             ASSERT_EQ(mesh.size(), 1U);
@@ -316,7 +317,7 @@ TEST(ColonyFile, InstancesHaveTheTransformsOfNodes) {
             return static_cast<float>(of.empty() ? rest : of[i]);
         };
         for (const ReadNode& node : nodes.nodes) {
-            if (node.name.ends_with("_stems")) continue;
+            if (node.name.ends_with("_stems") || node.name.ends_with("_wood")) continue;
             ASSERT_LT(seen[node.mesh], by_mesh[node.mesh].size());
             const ReadInstance& instance = by_mesh[node.mesh][seen[node.mesh]++];
             for (int k = 0; k < 3; ++k) {
@@ -438,6 +439,36 @@ TEST(ColonyFile, IsDeterministicAndDependsOnTheSeed) {
     EXPECT_EQ(once, joined(grown(spec).glb));
     spec.params.seed = 2;
     EXPECT_NE(once, joined(grown(spec).glb));
+}
+
+TEST(ColonyFile, TiersStandOnWoodAndTouchIt) {
+    for (const char* id : {"fomes_fomentarius", "trametes_versicolor", "tremella_mesenterica"}) {
+        ColonySpec spec = colony_of(id, 9, 3);
+        for (int lod = 0; lod < 4; ++lod) {
+            spec.params.lod = lod;
+            const Colony colony = parts_of(spec);
+            expect_valid(colony.wood);
+            EXPECT_EQ(colony.effective.substrate, colony_traits(spec, atlas()).substrate);
+            const double radius = spec.params.size * *colony.effective.trunk_radius;
+            const Bounds wood = bounds(colony.wood);
+            for (const ColonyMember& member : colony.members) {
+                const glm::dvec3 at = member.pose.at + glm::dvec3(0.0, 0.0, radius);
+                EXPECT_LE(std::hypot(at.x, at.z), 1.0001 * radius) << id << ": nothing hovers";
+                EXPECT_GT(at.y, static_cast<double>(wood.min.y)) << id;
+                EXPECT_LT(at.y, static_cast<double>(wood.max.y)) << id;
+            }
+        }
+        spec.params.lod = 2;
+        const Colony with = parts_of(spec);
+        const auto scene = expect_scene(joined(grown(spec).glb));
+        ASSERT_EQ(scene.materials.size(), 2U);
+        spec.params.substrate = Substrate::none;
+        const Colony without = parts_of(spec);
+        EXPECT_TRUE(without.wood.positions.empty());
+        ASSERT_EQ(with.members.size(), without.members.size()) << "it moves nobody";
+        EXPECT_EQ(with.members.front().pose.at, without.members.front().pose.at);
+        EXPECT_EQ(expect_scene(joined(grown(spec).glb)).materials.size(), 1U);
+    }
 }
 
 TEST(ColonyFile, AMixIsOneMushroomInManyInstances) {

@@ -242,7 +242,7 @@ TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
         MushroomSpec changed = spec;
         change(changed.params);
         const int before = keeper.made;
-        (void)grow_mushroom(changed, atlas(), {}, keeper.execution);
+        (void)grow_mushroom(changed, atlas(), Extras(), keeper.execution);
         return keeper.made - before;
     };
     EXPECT_EQ(made_by([](MushroomParams&) {}), 1);

@@ -1,0 +1,22 @@
+#include "core/grow/wood.h"
+
+#include "core/grow/product.h"
+
+namespace sporeprint {
+
+std::string image_key(const WoodPaint& paint, ImageFormat format) {
+    return key_of_format(format) + "wood " + name(paint.substrate) + ' ' +
+           std::to_string(paint.texture_size.value);
+}
+
+std::shared_ptr<const ImageSet> painted_images(const WoodPaint& paint,
+                                               const ExecutionContext& execution,
+                                               ImageFormat format) {
+    return execution.caches.images(image_key(paint, format), [&] {
+        const RawImages images = wood_images(paint, execution.parallel);
+        throw_if_cancelled(execution);
+        return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
+    });
+}
+
+}  // namespace sporeprint

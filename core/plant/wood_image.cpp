@@ -1,0 +1,197 @@
+#include "core/plant/wood_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/math/noise.h"
+#include "core/plant/bark_image.h"
+#include "core/problems.h"
+
+namespace sporeprint {
+
+namespace {
+
+static_assert(wood_girths == wood_bark_end * bark_girths, "the bark is that of bark_images()");
+
+/// The look of a kind of wood.
+struct WoodStyle {
+    BarkStyle bark;
+    Colour sapwood, heartwood;
+    int rings = 20;  ///< annual rings of a sawn end
+};
+
+WoodStyle style_of(Substrate substrate) {
+    switch (substrate) {
+        case Substrate::none:
+            break;
+        case Substrate::beech:
+            return {{.ridge = {136, 134, 124},
+                     .furrow = {92, 92, 84},
+                     .furrows = 0.12,
+                     .ridges = 8,
+                     .stretch = 1.5,
+                     .lenticels = 0.1,
+                     .lenticel = {104, 102, 92}},
+                    {196, 164, 124},
+                    {176, 134, 98},
+                    26};
+        case Substrate::birch:
+            return {{.ridge = {222, 218, 208},
+                     .furrow = {90, 84, 80},
+                     .furrows = 0.15,
+                     .ridges = 6,
+                     .stretch = 1.5,
+                     .lenticels = 0.5,
+                     .lenticel = {48, 42, 40}},
+                    {206, 180, 142},
+                    {190, 158, 118},
+                    22};
+        case Substrate::oak:
+            return {{.ridge = {112, 98, 82},
+                     .furrow = {44, 37, 31},
+                     .furrows = 0.9,
+                     .ridges = 14,
+                     .stretch = 5.0},
+                    {190, 162, 120},
+                    {134, 96, 62},
+                    30};
+        case Substrate::poplar:
+            return {{.ridge = {122, 116, 100},
+                     .furrow = {58, 52, 44},
+                     .furrows = 0.7,
+                     .ridges = 10,
+                     .stretch = 6.0},
+                    {206, 188, 156},
+                    {172, 146, 112},
+                    14};
+        case Substrate::spruce:
+            return {{.ridge = {112, 84, 66},
+                     .furrow = {62, 46, 36},
+                     .furrows = 0.6,
+                     .ridges = 18,
+                     .stretch = 1.4},
+                    {208, 182, 136},
+                    {196, 158, 108},
+                    34};
+    }
+    throw InvalidInput("/substrate", "no wood has no images");
+}
+
+constexpr std::uint32_t wood_seed = 7;
+constexpr int rows_per_piece = 32;
+
+glm::dvec3 linear(const Colour& colour) {
+    return {srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
+            srgb_to_linear(colour.b / 255.0)};
+}
+
+std::uint8_t byte(double share) {
+    return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5));
+}
+
+/// Paints the end grain of weathered wood over the last rows of images of bark.
+class EndPainter {
+  public:
+    EndPainter(const WoodStyle& style, std::uint32_t seed, RawImages& images)
+        : rings_(style.rings),
+          seed_(seed),
+          count_(static_cast<std::size_t>(images.side)),
+          images_(images),
+          bark_(0.5 * (linear(style.bark.ridge) + linear(style.bark.furrow))),
+          sapwood_(linear(style.sapwood)),
+          heartwood_(linear(style.heartwood)) {}
+
+    /// Returns the first row that is end grain.
+    [[nodiscard]] int first() const {
+        return static_cast<int>(std::ceil(0.5 * (wood_bark_end + wood_end_rim) * images_.side));
+    }
+
+    void paint_row(std::size_t y);
+
+  private:
+    /// Returns noise round the pith with `round` features, at a distance from it in features.
+    [[nodiscard]] std::vector<float> noise_round(int round, double along,
+                                                 std::uint32_t purpose) const {
+        std::vector<float> u(count_), v(count_, static_cast<float>(along)), out(count_);
+        for (std::size_t x = 0; x < count_; ++x)
+            u[x] = static_cast<float>((static_cast<double>(x) + 0.5) * round /
+                                      static_cast<double>(count_));
+        periodic_noise(u, v, round, seed_ * 16U + purpose, out);
+        return out;
+    }
+
+    double rings_;
+    std::uint32_t seed_;
+    std::size_t count_;  ///< texels of a row
+    RawImages& images_;
+    glm::dvec3 bark_, sapwood_, heartwood_;
+};
+
+void EndPainter::paint_row(std::size_t y) {
+    const double v = (static_cast<double>(y) + 0.5) / static_cast<double>(count_);
+    const double radius =
+        std::clamp((wood_end_middle - v) / (wood_end_middle - wood_end_rim), 0.0, 1.0);
+    const std::vector<float> wobble = noise_round(3, 2.0 * radius, 0U);
+    const std::vector<float> stains = noise_round(5, 4.0 * radius, 1U);
+    const std::vector<float> fine = noise_round(96, 60.0 * radius, 2U);
+    const std::vector<float> rays = noise_round(160, 5.0 * radius, 3U);
+    const std::vector<float> cracks = noise_round(9, 0.7 * radius, 4U);
+    const std::vector<float> whether = noise_round(5, 0.3, 5U);
+    for (std::size_t x = 0; x < count_; ++x) {
+        const double grain = static_cast<double>(fine[x]);
+        const double rounded = radius + 0.05 * static_cast<double>(wobble[x]);
+        // Rings become narrower towards the bark.
+        const double ring = rings_ * rounded * (0.7 + 0.3 * rounded);
+        const double within = ring - std::floor(ring);
+        const double late =
+            smooth_step(0.45, 0.92, within) * (1.0 - smooth_step(0.93, 1.0, within));
+        const double heart = 1.0 - smooth_step(0.5, 0.62, rounded);
+        glm::dvec3 light = sapwood_ + heart * (heartwood_ - sapwood_);
+        light *= 1.0 - 0.35 * late + 0.12 * grain + 0.1 * static_cast<double>(rays[x]);
+        // Sun and rain turn wood grey, unevenly.
+        const double grey = 0.3 + 0.35 * static_cast<double>(stains[x]);
+        const double mean = (light.x + light.y + light.z) / 3.0;
+        light += std::clamp(grey, 0.0, 0.7) * (0.75 * glm::dvec3(mean) - light);
+        const double open = smooth_step(0.0, 0.2, static_cast<double>(whether[x])) * radius;
+        const double crack =
+            1.0 - smooth_step(0.0, 0.05 * open + 1e-6, std::abs(static_cast<double>(cracks[x])));
+        light *= 1.0 - 0.8 * crack * std::min(1.0, 3.0 * open);
+        const double rind = smooth_step(0.93, 0.94, rounded - 0.02 * grain);
+        light += rind * ((0.55 + 0.3 * grain) * bark_ - light);
+        const double cambium = rind * (1.0 - smooth_step(0.94, 0.955, rounded));
+        light *= 1.0 - 0.5 * cambium;
+        const std::size_t at = 3 * (y * count_ + x);
+        for (std::size_t k = 0; k < 3; ++k)
+            images_.rgb[0][at + k] =
+                byte(linear_to_srgb(std::clamp(light[static_cast<int>(k)], 0.0, 1.0)));
+        images_.rgb[1][at] = byte(0.5 + 0.12 * static_cast<double>(rays[x]));
+        images_.rgb[1][at + 1] = byte(0.5 + 0.12 * grain + 0.06 * (late - 0.3));
+        images_.rgb[1][at + 2] = byte(0.985);
+        images_.rgb[2][at] = byte(1.0 - 0.6 * crack * std::min(1.0, 3.0 * open) - 0.3 * cambium);
+        images_.rgb[2][at + 1] = byte(0.88 + 0.08 * grain);
+    }
+}
+
+}  // namespace
+
+RawImages wood_images(const WoodPaint& paint, const Parallel& parallel) {
+    const WoodStyle style = style_of(paint.substrate);
+    const auto kind = static_cast<std::uint32_t>(paint.substrate);
+    const int side = paint.texture_size;
+    RawImages images = bark_images(style.bark, wood_seed + kind, side, parallel);
+    EndPainter painter(style, wood_seed + kind, images);
+    std::vector<std::function<void()>> pieces;
+    for (int first = painter.first(); first < side; first += rows_per_piece)
+        pieces.emplace_back([&painter, first, side] {
+            for (int y = first; y < std::min(side, first + rows_per_piece); ++y)
+                painter.paint_row(static_cast<std::size_t>(y));
+        });
+    parallel(pieces);
+    return images;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,94 @@
+#include "core/plant/wood.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/elementary.h"
+#include "core/mesh/measure.h"
+#include "core/plant/wood_image.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint::plant_wood_test {
+namespace {
+
+TEST(Wood, IsAClosedPieceOfItsRadiusAndLength) {
+    for (const double radius : {0.01, 0.2, 3.0})
+        for (const double length : {0.05, 1.0, 9.0})
+            for (int lod = 0; lod < 4; ++lod)
+                for (const bool textured : {true, false}) {
+                    const WoodPiece piece{radius, -0.25 * length, 0.75 * length, 7};
+                    const Mesh mesh = wood_mesh(piece, lod, textured);
+                    EXPECT_EQ(defects(mesh), std::vector<std::string>{});
+                    const MeshCount count = wood_count(piece, lod, textured);
+                    EXPECT_EQ(mesh.positions.size(), count.vertices);
+                    EXPECT_EQ(mesh.triangles(), count.triangles);
+                    EXPECT_EQ(mesh.texture_coordinates.empty(), !textured);
+                    const double cylinder = pi * radius * radius * length;
+                    // A polygon of ten sides fills 0.94 of its circle.
+                    EXPECT_GT(volume(mesh), 0.93 * cylinder);
+                    EXPECT_LT(volume(mesh), uneven_radius * uneven_radius * cylinder);
+                    const Bounds box = bounds(mesh);
+                    EXPECT_NEAR(box.min.y, -0.25 * length, 1e-6 * length);
+                    EXPECT_NEAR(box.max.y, 0.75 * length, 1e-6 * length);
+                }
+}
+
+TEST(Wood, ReachesTheOriginFromBehind) {
+    for (std::uint32_t seed = 0; seed < 40; ++seed) {
+        const WoodPiece piece{0.1, -0.3, 0.4, seed};
+        const Mesh mesh = wood_mesh(piece, 0, true);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const glm::vec3 at = mesh.positions[i];
+            const double x = static_cast<double>(at.x), z = static_cast<double>(at.z) + 0.1;
+            const double from_axis = std::sqrt(x * x + z * z);
+            EXPECT_LE(from_axis, 0.1 * uneven_radius + 1e-6);
+            if (std::abs(mesh.normals[i].y) < 0.9F) {
+                EXPECT_GE(from_axis, 0.1 - 1e-6) << "bark";
+            }
+        }
+        EXPECT_GE(bounds(mesh).max.z, 0.0F);
+    }
+}
+
+TEST(Wood, BarkAndEndsHaveTheirPartsOfTheImage) {
+    const Mesh mesh = wood_mesh({0.1, -2.0, 2.0, 3}, 1, true);
+    int bark = 0, ends = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const double v = static_cast<double>(mesh.texture_coordinates[i].y);
+        const bool is_end = std::abs(mesh.normals[i].y) > 0.99F;
+        ++(is_end ? ends : bark);
+        if (is_end) {
+            EXPECT_GE(v, wood_end_rim - 1e-6);
+            EXPECT_LE(v, wood_end_middle + 1e-6);
+        } else {
+            EXPECT_LE(v, wood_bark_end + 1e-6);
+        }
+    }
+    EXPECT_GT(bark, 100);
+    EXPECT_GT(ends, 100);
+}
+
+TEST(Wood, OfEverySeedIsUnevenInItsOwnWay) {
+    const Mesh one = wood_mesh({0.1, -0.2, 0.2, 1}, 0, false);
+    EXPECT_EQ(one.positions, wood_mesh({0.1, -0.2, 0.2, 1}, 0, false).positions);
+    EXPECT_NE(one.positions, wood_mesh({0.1, -0.2, 0.2, 2}, 0, false).positions);
+}
+
+TEST(Wood, RefusesPiecesWithoutSize) {
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    for (const double radius : {0.0, -1.0, nothing})
+        EXPECT_TRUE(names(refusal([&] {
+                              (void)wood_mesh({radius, 0.0, 1.0, 1}, 0, true);
+                          }),
+                          "/radius", "positive"));
+    EXPECT_TRUE(names(refusal([] {
+                          (void)wood_count({0.1, 1.0, 1.0, 1}, 0, true);
+                      }),
+                      "/top", "above"));
+}
+
+}  // namespace
+}  // namespace sporeprint::plant_wood_test
