@@ -71,6 +71,14 @@ glm::vec3 surroundings(const glm::vec3& direction) {
     return horizon + (zenith - horizon) * direction.y;
 }
 
+glm::vec3 mirrored_surroundings(const glm::vec3& direction, float roughness) {
+    const auto width = static_cast<double>(std::max(roughness, 0.15F));
+    const auto sky =
+        static_cast<float>(smooth_step(-width, width, static_cast<double>(direction.y)));
+    const glm::vec3 above = horizon + (zenith - horizon) * std::max(direction.y, 0.0F);
+    return ground + (above - ground) * sky;
+}
+
 StudioLights studio_lights(const CameraAxes& axes, int detail) {
     const auto share = [&](int parts) { return std::max(parts / detail, 2); };
     const glm::dvec3 right(axes.right), up(axes.up), forward(axes.forward);

@@ -35,6 +35,12 @@ struct StudioLights {
 /// direction  unit vector
 [[nodiscard]] glm::vec3 surroundings(const glm::vec3& direction);
 
+/// Returns what a surface of a roughness shows of them as a mirror: the border between ground and
+/// sky is as wide as its highlights.
+///
+/// direction  of the mirrored ray, unit
+[[nodiscard]] glm::vec3 mirrored_surroundings(const glm::vec3& direction, float roughness);
+
 /// The depths at which a scene stops the light of one direction.
 class ShadowMap {
   public:

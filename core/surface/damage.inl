@@ -211,7 +211,7 @@ HWY_INLINE void add_pit(const SpotPlan& spot, VF x, VF y, const DamageTarget& at
     // Flesh that has been open for some hours is discoloured, most at its rim.
     const VF rim = hn::Max(one - hn::Abs(far - set(0.86F)) * set(4.2F), zero);
     at.raise(damage_stain,
-             (hn::Max(rim * set(0.45F), open * set(0.25F)) + ragged * set(0.12F) * open) * shown);
+             (hn::Max(rim * set(0.85F), open * set(0.3F)) + ragged * set(0.2F) * open) * shown);
 }
 
 /// Two octaves of noise with cached lattice cells, evaluated texel after texel of a row.
@@ -370,8 +370,12 @@ HWY_INLINE void show_damage(const DamagePlan& plan, const DamageTexel& damage, V
     if (!all_at_least(zero, open)) {
         const VF fibre = noise2(x * set(61.0F), y * set(61.0F), plan.seed, noise.fine);
         const VF cloud = noise2(x * set(13.0F), y * set(13.0F), plan.seed + 1U, noise.coarse);
+        // Open flesh dries, and takes on the colour of the skin in cloudy patches.
+        const VF dry = unit(set(0.70F) + cloud * set(0.45F));
         Rgb flesh =
             shaded(rgb(plan.flesh), one + fibre * set(0.14F) + cloud * set(0.10F) - set(0.04F));
+        flesh = mix(flesh, {flesh.r * set(0.62F), flesh.g * set(0.46F), flesh.b * set(0.30F)}, dry);
+        flesh = mix(flesh, texel.colour, set(0.25F));
         if (stained) flesh = mix(flesh, rgb(plan.bruise), stain * set(0.75F));
         texel.colour = mix(texel.colour, flesh, open);
         texel.roughness = mix(texel.roughness, set(0.88F), open);

@@ -10,6 +10,24 @@
 namespace sporeprint::render::render_lighting_test {
 namespace {
 
+TEST(Lighting, MirrorsShowTheSurroundingsWithoutAStepAtTheHorizon) {
+    for (const float roughness : {0.0F, 0.3F, 0.9F}) {
+        for (const float y : {-1.0F, 1.0F}) {
+            const glm::vec3 straight(0.0F, y, 0.0F);
+            EXPECT_LT(
+                glm::distance(mirrored_surroundings(straight, roughness), surroundings(straight)),
+                1e-6F);
+        }
+        glm::vec3 before = mirrored_surroundings({0.0F, -1.0F, 0.0F}, roughness);
+        for (int i = -100; i <= 100; ++i) {
+            const glm::vec3 here =
+                mirrored_surroundings({0.0F, 0.01F * static_cast<float>(i), 0.0F}, roughness);
+            EXPECT_LT(glm::distance(here, before), 0.04F);
+            before = here;
+        }
+    }
+}
+
 TEST(Lighting, TheSurroundingsIlluminateAsTheirIntegralDoes) {
     // A surface that faces up receives zenith and horizon: the integral of (h + (z - h) y) y over
     // the upper half, divided by that of y.
