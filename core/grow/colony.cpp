@@ -609,9 +609,12 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     throw_if_cancelled(execution);
 
     const ColonyRoots growth = growth_of(params, traits, fit);
-    const Individual youngest =
-        average_individual(spec, params.distinct - 1, atlas, execution.caches);
-    const ColonySite site = colony_site(params, traits, growth, {fit, fit_of(youngest, traits)});
+    ColonyFits fits{fit, fit};
+    // Whole individuals have the size of their age by themselves, and roots decide on the others.
+    if (traits.capped && traits.habit != Habit::rooted)
+        fits.youngest =
+            fit_of(average_individual(spec, params.distinct - 1, atlas, execution.caches), traits);
+    const ColonySite site = colony_site(params, traits, growth, fits);
     colony.members = placed_members(site, models.models, params, traits);
     std::vector<Sway> sway;  // of each model at its top
     if (params.file.wind != WindFormat::none) {

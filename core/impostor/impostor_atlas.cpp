@@ -16,7 +16,7 @@
 #include "core/render/draw_list.h"
 #include "core/render/srgb_table.h"
 #include "core/render/texture.h"
-#include "core/render/triangle_raster.h"
+#include "core/render/visibility.h"
 #include "core/surface/codecs.h"
 
 namespace sporeprint {
@@ -27,6 +27,7 @@ using render::Draw;
 using render::DrawList;
 using render::DrawMaterial;
 using render::SrgbTable;
+using render::Visibility;
 
 /// Samples of a texel in each direction.
 constexpr int samples = 2;
@@ -44,27 +45,6 @@ std::uint8_t byte_of(float share) {
     return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255.0F + 0.5F);
 }
 
-/// What is in front at each sample of a frame.
-struct Visibility {
-    int side = 0;                       ///< in samples
-    std::vector<float> depth;           ///< towards the viewer, metres
-    std::vector<std::uint32_t> draw;    ///< index into the draw list
-    std::vector<std::uint32_t> corner;  ///< index of the triangle's first corner
-
-    explicit Visibility(int columns)
-        : side(columns),
-          depth(static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns), nothing),
-          draw(depth.size()),
-          corner(depth.size()) {}
-
-    [[nodiscard]] bool shows(std::size_t at) const { return depth[at] > nothing; }
-    [[nodiscard]] bool same(std::size_t a, std::size_t b) const {
-        return draw[a] == draw[b] && corner[a] == corner[b];
-    }
-
-    static constexpr float nothing = -std::numeric_limits<float>::max();
-};
-
 /// The map of a scene into a frame: x to the right and y down, in texels.
 struct FrameView {
     FrameAxes axes;
@@ -80,8 +60,10 @@ struct FrameView {
     }
 };
 
+/// Returns what is in front at each sample of a frame; nearness is in metres towards the viewer.
 Visibility visible(const DrawList& list, const FrameView& view) {
-    Visibility found(view.side * samples);
+    const int side = view.side * samples;
+    Visibility found(side, side);
     std::vector<render::SnappedCorner> corners;
     for (std::size_t d = 0; d < list.draws.size(); ++d) {
         const Draw& draw = list.draws[d];
@@ -90,16 +72,7 @@ Visibility visible(const DrawList& list, const FrameView& view) {
             const glm::vec3 at = view.place_of(draw.placement.point(draw.mesh->positions[i]));
             corners[i] = render::snapped({at.x * samples, at.y * samples, at.z});
         }
-        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
-        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-            render::rasterize(corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]],
-                              found.side, found.side, [&](int x, int y, float depth) {
-                                  const auto at = static_cast<std::size_t>(y * found.side + x);
-                                  if (depth <= found.depth[at]) return;
-                                  found.depth[at] = depth;
-                                  found.draw[at] = static_cast<std::uint32_t>(d);
-                                  found.corner[at] = static_cast<std::uint32_t>(i);
-                              });
+        found.show(d, draw.mesh->indices, corners, 0, side);
     }
     return found;
 }
@@ -261,8 +234,8 @@ class FramePainter {
         std::size_t shown = 0;
         for (int i = 0; i < samples; ++i)
             for (int j = 0; j < samples; ++j) {
-                const auto one =
-                    static_cast<std::size_t>((y * samples + i) * visibility.side + x * samples + j);
+                const auto one = static_cast<std::size_t>((y * samples + i) * visibility.width +
+                                                          x * samples + j);
                 if (visibility.shows(one)) at[shown++] = one;
             }
         if (shown == 0) return false;
@@ -272,11 +245,11 @@ class FramePainter {
         for (std::size_t first = 0, last = 0; first < shown; first = last) {
             glm::vec2 middle(0.0F);
             for (last = first; last < shown && visibility.same(at[last], at[first]); ++last) {
-                const auto side = static_cast<std::size_t>(visibility.side);
+                const auto side = static_cast<std::size_t>(visibility.width);
                 const std::size_t row = at[last] / side, column = at[last] % side;
                 middle +=
                     glm::vec2(static_cast<float>(column) + 0.5F, static_cast<float>(row) + 0.5F);
-                depth += visibility.depth[at[last]];
+                depth += visibility.nearness[at[last]];
             }
             const auto count = static_cast<float>(last - first);
             const Facet facet(list_, view, visibility.draw[at[first]],

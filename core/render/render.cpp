@@ -17,7 +17,7 @@
 #include "core/render/lighting.h"
 #include "core/render/shading.h"
 #include "core/render/srgb_table.h"
-#include "core/render/triangle_raster.h"
+#include "core/render/visibility.h"
 #include "core/surface/codecs.h"
 
 namespace sporeprint {
@@ -40,21 +40,11 @@ int surroundings_side(const PictureParams& params) { return is_small(params) ? 8
 /// Rows of pixels that are shaded by one task, and bands in which triangles are found.
 constexpr int band = 16, visible_bands = 4;
 
-/// What is in front at each sample.
-struct Visibility {
-    int width = 0, height = 0;                 ///< in samples
-    std::vector<float> nearness;               ///< 1 / distance; 0 for nothing
-    std::vector<std::uint32_t> draw;           ///< index into the draw list
-    std::vector<std::uint32_t> corner;         ///< index of the triangle's first corner
+/// What is in front at each sample, and the vertices of all draws.
+struct SeenScene : Visibility {
     std::vector<std::vector<glm::vec3>> seen;  ///< vertices of each draw in the axes of the camera
 
-    Visibility(int columns, int rows, std::size_t draws)
-        : width(columns),
-          height(rows),
-          nearness(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F),
-          draw(nearness.size()),
-          corner(nearness.size()),
-          seen(draws) {}
+    SeenScene(int columns, int rows, std::size_t draws) : Visibility(columns, rows), seen(draws) {}
 };
 
 /// Returns vertices in the axes of a camera as corners in an image of samples.
@@ -72,9 +62,9 @@ std::vector<SnappedCorner> corners_of(const std::vector<glm::vec3>& seen, const 
     return corners;
 }
 
-Visibility visible(const DrawList& list, const Camera& camera, int columns, int rows,
-                   const Parallel& parallel) {
-    Visibility found(columns, rows, list.draws.size());
+SeenScene visible(const DrawList& list, const Camera& camera, int columns, int rows,
+                  const Parallel& parallel) {
+    SeenScene found(columns, rows, list.draws.size());
     std::vector<std::vector<SnappedCorner>> corners(list.draws.size());
     std::vector<std::function<void()>> tasks;
     for (std::size_t d = 0; d < corners.size(); ++d)
@@ -90,21 +80,8 @@ Visibility visible(const DrawList& list, const Camera& camera, int columns, int 
     for (int part = 0; part < visible_bands; ++part)
         tasks.emplace_back(
             [&, from = rows * part / visible_bands, to = rows * (part + 1) / visible_bands] {
-                for (std::size_t d = 0; d < corners.size(); ++d) {
-                    const std::vector<SnappedCorner>& at = corners[d];
-                    const std::vector<std::uint32_t>& indices = list.draws[d].mesh->indices;
-                    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-                        rasterize(
-                            at[indices[i]], at[indices[i + 1]], at[indices[i + 2]], columns, to,
-                            [&](int x, int y, float nearness) {
-                                const auto sample = static_cast<std::size_t>(y * columns + x);
-                                if (nearness <= found.nearness[sample]) return;
-                                found.nearness[sample] = nearness;
-                                found.draw[sample] = static_cast<std::uint32_t>(d);
-                                found.corner[sample] = static_cast<std::uint32_t>(i);
-                            },
-                            from);
-                }
+                for (std::size_t d = 0; d < corners.size(); ++d)
+                    found.show(d, list.draws[d].mesh->indices, corners[d], from, to);
             });
     parallel(tasks);
     return found;
@@ -113,7 +90,7 @@ Visibility visible(const DrawList& list, const Camera& camera, int columns, int 
 /// A triangle ready to be sampled: its corners in the axes of the camera and their attributes.
 class Facet {
   public:
-    Facet(const DrawList& list, const Visibility& visibility, std::size_t sample)
+    Facet(const DrawList& list, const SeenScene& visibility, std::size_t sample)
         : draw_index_(visibility.draw[sample]),
           draw_(&list.draws[draw_index_]),
           material_(&list.materials[draw_->material]) {
@@ -366,7 +343,7 @@ class Drawing {
     StudioLights lights_;
     std::vector<ShadowMap> lamp_shadows_, shadows_;
     std::vector<std::vector<Ambient>> ambient_;
-    Visibility visible_;
+    SeenScene visible_;
     glm::vec2 scale_;  ///< pixels of a tangent of 1 to the right and up
     GroundShadow ground_;
 
@@ -416,10 +393,9 @@ class Drawing {
             const auto k = static_cast<std::size_t>(i);
             at[k] = static_cast<std::size_t>((y * samples + i / samples) * visible_.width +
                                              x * samples + i % samples);
-            const bool shows = visible_.nearness[at[k]] > 0.0F;
+            const bool shows = visible_.shows(at[k]);
             is_empty = is_empty && !shows;
-            is_one = is_one && shows && visible_.draw[at[k]] == visible_.draw[at[0]] &&
-                     visible_.corner[at[k]] == visible_.corner[at[0]];
+            is_one = is_one && shows && visible_.same(at[k], at[0]);
         }
         const glm::vec2 corner(static_cast<float>(x * samples), static_cast<float>(y * samples));
         const glm::vec3 middle = ray(corner + 0.5F * samples);
@@ -450,7 +426,7 @@ class Drawing {
             const glm::vec2 place = corner + glm::vec2(static_cast<float>(across) + 0.5F,
                                                        static_cast<float>(down) + 0.5F);
             const float nearness = visible_.nearness[sample];
-            if (nearness <= 0.0F) {
+            if (!visible_.shows(sample)) {
                 sum.shadow += shadow(camera_.in_scene(ray(place))) * share;
                 continue;
             }

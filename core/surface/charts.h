@@ -39,7 +39,7 @@ inline constexpr std::array<Part, part_count> all_parts = {Part::cap,  Part::hym
 /// cap       disc: pole = apex, rim = margin, radius = share of the meridian arc
 /// hymenium  disc: radius = inner + (1 - inner) * arc share with inner = hymenium_inner_share; rim
 ///           = margin
-/// stem      strip: u = share of the arc from the ground, v = theta / 2 pi
+/// stem      strip: u = share of the arc from the base, v = theta / 2 pi
 /// veil      strip: u = theta / 2 pi, v = 0 at the attachment, 1 at the edge or tip
 /// blade     strip, the face of a gill, ridge or spine: u = 0 at the stem, 1 at the margin; v = 0
 ///           at the base, 1 at the edge

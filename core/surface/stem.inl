@@ -173,8 +173,8 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     }
 }
 
-/// Returns a texel of the stem. along: 0 at the ground, 1 at the top; turn: 0..1. Heights are in
-/// circumferences.
+/// Returns a texel of the stem. along: 0 at its base, which may be in the ground, 1 at the top; turn:
+/// 0..1. Heights are in circumferences.
 HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* fields) {
     const VF one = set(1.0F);
     const VF zero = set(0.0F);
