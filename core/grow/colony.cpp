@@ -156,7 +156,7 @@ MeshCount expected_wood(const ColonySpec& spec, const ColonyTraits& traits, cons
                                     trunk_radius(spec.params, fit));
     const double height =
         rows.height * std::ceil(static_cast<double>(spec.params.count) / rows.in_row);
-    return wood_count(wood_of(spec.params, traits, fit, 0.0, height), lod, textured(spec));
+    return wood_count(wood_of(spec.params, traits, fit, 0.0, height), lod);
 }
 
 /// Returns about how many vertices and triangles the meshes of a level of detail have.

@@ -18,7 +18,7 @@ namespace sporeprint {
 namespace {
 
 /// Sides of the piece, and rows along one image of its bark, by level of detail.
-constexpr std::array<std::uint32_t, 4> sides = {48, 28, 16, 10}, rows_of_image = {24, 14, 8, 4};
+constexpr std::array<std::uint32_t, 4> sides = {48, 28, 16, 12}, rows_of_image = {12, 7, 4, 3};
 
 /// The middle ring of an end, in radii.
 constexpr double inner_ring = 0.45;
@@ -79,10 +79,9 @@ class WoodBuilder {
     }
 
     [[nodiscard]] MeshCount count() const {
-        // The seam has two vertices at each height. An end has two rings of quads, the inner ones
-        // with two corners in the middle.
-        const std::uint64_t round = columns_ + (textured_ ? 1 : 0);
-        return {round * (rows() + 1) + 2 * (2 * round + columns_),
+        // Two strips of bark; an end has two rings, and as many vertices in the middle as sides.
+        return {(columns_ + std::uint64_t{2}) * (rows() + 1) +
+                    2 * (2 * (columns_ + std::uint64_t{1}) + columns_),
                 std::uint64_t{2} * columns_ * rows() + std::uint64_t{6} * columns_};
     }
 
@@ -95,9 +94,6 @@ class WoodBuilder {
     }
 
   private:
-    /// Columns of vertices: one more with texture coordinates, which begin and end at the back.
-    [[nodiscard]] std::uint32_t round() const { return columns_ + (textured_ ? 1 : 0); }
-
     [[nodiscard]] double angle_of(std::uint32_t column) const {
         return 2.0 * pi * (static_cast<double>(column % columns_) / columns_ - 0.5);
     }
@@ -108,16 +104,12 @@ class WoodBuilder {
         if (textured_) mesh_.texture_coordinates.emplace_back(u, v);
     }
 
-    [[nodiscard]] double u_of(std::uint32_t column) const {
-        return static_cast<double>(column) / columns_;
-    }
-
     [[nodiscard]] glm::dvec3 place(double distance, const SineCosine& at, double height) const {
         return {distance * at.sine, height, distance * at.cosine - piece_.radius};
     }
 
     void add_bark() {
-        const std::uint32_t last = rows();
+        const std::uint32_t last = rows(), half = columns_ / 2;
         for (std::uint32_t row = 0; row <= last; ++row) {
             const double down =
                 row == last ? piece_.top - piece_.bottom : static_cast<double>(row) * step_;
@@ -125,23 +117,33 @@ class WoodBuilder {
             // Mirrored repeat, so that the image is continuous at both of its ends.
             const double images = down / image_;
             const double mirrored = 1.0 - std::abs(1.0 - (images - 2.0 * std::floor(0.5 * images)));
-            for (std::uint32_t column = 0; column < round(); ++column) {
-                const double angle = angle_of(column);
-                const SineCosine at = sine_cosine(angle);
-                const Distance from = bumps_.at(angle, height);
-                const glm::dvec3 outwards(at.sine, 0.0, at.cosine), aside(at.cosine, 0.0, -at.sine);
-                const glm::dvec3 normal = outwards - from.by_angle / from.length * aside -
-                                          glm::dvec3(0.0, from.by_height, 0.0);
-                add_vertex(place(from.length, at, height), glm::normalize(normal), u_of(column),
-                           wood_bark_end * mirrored);
-            }
+            for (const bool is_front : {true, false})
+                for (std::uint32_t column = 0; column <= half; ++column)
+                    add_bark_vertex(is_front, column, height, wood_bark_end * mirrored);
         }
+        const std::uint32_t round = columns_ + 2;
         for (std::uint32_t row = 0; row < last; ++row)
-            for (std::uint32_t column = 0; column < columns_; ++column) {
-                const std::uint32_t above = row * round() + column, below = above + round();
-                const std::uint32_t next = textured_ || column + 1 < columns_ ? 1 : 1 - columns_;
-                add_quad(above, below, below + next, above + next);
+            for (std::uint32_t column = 0; column <= columns_; ++column) {
+                if (column == half) continue;  // between the strips
+                const std::uint32_t above = row * round + column, below = above + round;
+                add_triangle(above, below, below + 1);
+                add_triangle(above, below + 1, above + 1);
             }
+    }
+
+    /// is_front  of the strip that faces +z, where the image is; behind it is mirrored, so that it
+    ///           is continuous on both sides
+    void add_bark_vertex(bool is_front, std::uint32_t column, double height, double v) {
+        const std::uint32_t half = columns_ / 2;
+        const double angle = angle_of(columns_ / 4 + (is_front ? 0 : half) + column);
+        const SineCosine at = sine_cosine(angle);
+        const Distance from = bumps_.at(angle, height);
+        const glm::dvec3 outwards(at.sine, 0.0, at.cosine), aside(at.cosine, 0.0, -at.sine);
+        const glm::dvec3 normal =
+            outwards - from.by_angle / from.length * aside - glm::dvec3(0.0, from.by_height, 0.0);
+        const double along = static_cast<double>(column) / half;
+        add_vertex(place(from.length, at, height), glm::normalize(normal),
+                   is_front ? along : 1.0 - along, v);
     }
 
     /// up  1 for the upper end, -1 for the lower one
@@ -151,17 +153,18 @@ class WoodBuilder {
         const auto v_of = [](double share) {
             return wood_end_middle + share * (wood_end_rim - wood_end_middle);
         };
+        const std::uint32_t round = columns_ + 1;
+        const auto u_of = [&](double column) { return column / columns_; };
         for (const double share : {1.0, inner_ring})
-            for (std::uint32_t column = 0; column < round(); ++column) {
+            for (std::uint32_t column = 0; column < round; ++column) {
                 const double angle = angle_of(column);
                 add_vertex(
                     place(share * bumps_.at(angle, height).length, sine_cosine(angle), height),
                     normal, u_of(column), v_of(share));
             }
         for (std::uint32_t column = 0; column < columns_; ++column)
-            add_vertex({0.0, height, -piece_.radius}, normal, u_of(column) + 0.5 / columns_,
-                       v_of(0.0));
-        const std::uint32_t inner = first + round(), middle = inner + round();
+            add_vertex({0.0, height, -piece_.radius}, normal, u_of(column + 0.5), v_of(0.0));
+        const std::uint32_t inner = first + round, middle = inner + round;
         const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             if (up > 0.0F)
                 add_triangle(a, b, c);
@@ -169,7 +172,7 @@ class WoodBuilder {
                 add_triangle(a, c, b);
         };
         for (std::uint32_t column = 0; column < columns_; ++column) {
-            const std::uint32_t next = textured_ || column + 1 < columns_ ? column + 1 : 0;
+            const std::uint32_t next = column + 1;
             add(first + column, first + next, inner + next);
             add(first + column, inner + next, inner + column);
             add(inner + column, inner + next, middle + column);
@@ -178,11 +181,6 @@ class WoodBuilder {
 
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
-    }
-
-    void add_quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-        add_triangle(a, b, c);
-        add_triangle(a, c, d);
     }
 
     const WoodPiece& piece_;
@@ -204,8 +202,8 @@ WoodBuilder builder_of(const WoodPiece& piece, int lod, bool textured) {
 
 }  // namespace
 
-MeshCount wood_count(const WoodPiece& piece, int lod, bool textured) {
-    const WoodBuilder builder = builder_of(piece, lod, textured);
+MeshCount wood_count(const WoodPiece& piece, int lod) {
+    const WoodBuilder builder = builder_of(piece, lod, false);
     return builder.count();
 }
 

@@ -44,12 +44,12 @@ struct WoodPiece {
 inline constexpr double uneven_radius = 1.1;
 
 /// Returns the number of vertices and triangles of wood_mesh().
-[[nodiscard]] MeshCount wood_count(const WoodPiece& piece, int lod, bool textured);
+[[nodiscard]] MeshCount wood_count(const WoodPiece& piece, int lod);
 
 /// Returns the surface: bark, whose radius varies between 1 and uneven_radius of the radius
 /// of the piece, and two flat ends.
 ///
-/// lod       0..3: 48, 28, 16 or 10 sides
+/// lod       0..3: 48, 28, 16 or 12 sides
 /// textured  makes texture coordinates for wood_images(), and tangents
 /// returns   a mesh that is closed once equal positions are welded
 /// throws    InvalidInput for a radius that is not positive, or a top that is not above the bottom

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace sporeprint {
 
 namespace {
 
-static_assert(wood_girths == wood_bark_end * bark_girths, "the bark is that of bark_images()");
+static_assert(2.0 * wood_girths == wood_bark_end * bark_girths,
+              "the bark is that of bark_images(), on half of the girth");
 
 /// The look of a kind of wood.
 struct WoodStyle {
@@ -93,13 +95,102 @@ std::uint8_t byte(double share) {
     return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5));
 }
 
+/// Noise along the rows of images that wrap.
+class RowNoise {
+  public:
+    RowNoise(std::uint32_t seed, std::size_t count) : seed_(seed), count_(count) {}
+
+    /// Returns noise with `round` features in a row, at a distance of `along` features from the
+    /// first row.
+    [[nodiscard]] std::vector<float> row(int round, double along, std::uint32_t purpose) const {
+        std::vector<float> u(count_), v(count_, static_cast<float>(along)), out(count_);
+        for (std::size_t x = 0; x < count_; ++x)
+            u[x] = static_cast<float>((static_cast<double>(x) + 0.5) * round /
+                                      static_cast<double>(count_));
+        periodic_noise(u, v, round, seed_ * 16U + purpose, out);
+        return out;
+    }
+
+  private:
+    std::uint32_t seed_;
+    std::size_t count_;  ///< texels of a row
+};
+
+glm::dvec3 colour_at(const RawImages& images, std::size_t texel) {
+    const auto light = [&](std::size_t k) {
+        return srgb_to_linear(images.rgb[0][3 * texel + k] / 255.0);
+    };
+    return {light(0), light(1), light(2)};
+}
+
+void set_colour(RawImages& images, std::size_t texel, const glm::dvec3& light) {
+    for (std::size_t k = 0; k < 3; ++k)
+        images.rgb[0][3 * texel + k] =
+            byte(linear_to_srgb(std::clamp(light[static_cast<int>(k)], 0.0, 1.0)));
+}
+
+/// Gives bark its fine grain, and the algae and crusts of lichen that grow on it.
+class BarkWeather {
+  public:
+    BarkWeather(std::uint32_t seed, RawImages& images)
+        : count_(static_cast<std::size_t>(images.side)), noise_(seed, count_), images_(images) {}
+
+    void paint_row(std::size_t y);
+
+  private:
+    /// Returns the fine relief of a row: scales a little longer than wide, and grain.
+    [[nodiscard]] std::vector<float> relief(double down) const {
+        std::vector<float> sum = noise_.row(48, 24.0 * down, 8U);
+        const std::vector<float> grain = noise_.row(160, 110.0 * down, 9U);
+        for (std::size_t x = 0; x < count_; ++x) sum[x] = 0.6F * sum[x] + 0.4F * grain[x];
+        return sum;
+    }
+
+    static constexpr double steepness = 0.35;  ///< slope of the fine relief per unit of its noise
+    std::size_t count_;
+    RowNoise noise_;
+    RawImages& images_;
+};
+
+void BarkWeather::paint_row(std::size_t y) {
+    const double texel = 1.0 / static_cast<double>(count_);
+    const double down = (static_cast<double>(y) + 0.5) * texel;
+    const std::vector<float> here = relief(down), below = relief(down + texel);
+    const std::vector<float> patches = noise_.row(7, 7.0 * down, 10U);
+    const std::vector<float> edges = noise_.row(60, 60.0 * down, 11U);
+    const std::vector<float> films = noise_.row(3, 2.0 * down, 12U);
+    const glm::dvec3 lichen(0.44, 0.47, 0.38), algae(0.16, 0.20, 0.07);
+    for (std::size_t x = 0; x < count_; ++x) {
+        const std::size_t at = y * count_ + x;
+        const auto rise = static_cast<double>(here[x]);
+        glm::dvec3 light = colour_at(images_, at) * (1.0 + 0.3 * rise);
+        const double film = smooth_step(0.0, 0.6, static_cast<double>(films[x]) + 0.2 * rise);
+        light += 0.35 * film * (algae - light);
+        const double crust = smooth_step(
+            0.34, 0.42, static_cast<double>(patches[x]) + 0.22 * static_cast<double>(edges[x]));
+        light += 0.75 * crust * ((1.0 + 0.35 * rise) * lichen - light);
+        set_colour(images_, at, light);
+        const auto ahead = static_cast<double>(here[(x + 1) % count_]);
+        const double slopes[2] = {steepness * (rise - ahead),
+                                  steepness * (static_cast<double>(below[x]) - rise)};
+        glm::dvec3 normal(0.0);
+        for (int k = 0; k < 3; ++k)
+            normal[k] = images_.rgb[1][3 * at + static_cast<std::size_t>(k)] / 127.5 - 1.0;
+        normal = glm::normalize(normal + glm::dvec3(slopes[0], slopes[1], 0.0));
+        for (std::size_t k = 0; k < 3; ++k)
+            images_.rgb[1][3 * at + k] = byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
+        const double roughness = images_.rgb[2][3 * at + 1] / 255.0;
+        images_.rgb[2][3 * at + 1] = byte(roughness + crust * (0.95 - roughness) + 0.06 * rise);
+    }
+}
+
 /// Paints the end grain of weathered wood over the last rows of images of bark.
 class EndPainter {
   public:
     EndPainter(const WoodStyle& style, std::uint32_t seed, RawImages& images)
         : rings_(style.rings),
-          seed_(seed),
           count_(static_cast<std::size_t>(images.side)),
+          noise_(seed, count_),
           images_(images),
           bark_(0.5 * (linear(style.bark.ridge) + linear(style.bark.furrow))),
           sapwood_(linear(style.sapwood)),
@@ -113,20 +204,9 @@ class EndPainter {
     void paint_row(std::size_t y);
 
   private:
-    /// Returns noise round the pith with `round` features, at a distance from it in features.
-    [[nodiscard]] std::vector<float> noise_round(int round, double along,
-                                                 std::uint32_t purpose) const {
-        std::vector<float> u(count_), v(count_, static_cast<float>(along)), out(count_);
-        for (std::size_t x = 0; x < count_; ++x)
-            u[x] = static_cast<float>((static_cast<double>(x) + 0.5) * round /
-                                      static_cast<double>(count_));
-        periodic_noise(u, v, round, seed_ * 16U + purpose, out);
-        return out;
-    }
-
     double rings_;
-    std::uint32_t seed_;
     std::size_t count_;  ///< texels of a row
+    RowNoise noise_;
     RawImages& images_;
     glm::dvec3 bark_, sapwood_, heartwood_;
 };
@@ -135,12 +215,12 @@ void EndPainter::paint_row(std::size_t y) {
     const double v = (static_cast<double>(y) + 0.5) / static_cast<double>(count_);
     const double radius =
         std::clamp((wood_end_middle - v) / (wood_end_middle - wood_end_rim), 0.0, 1.0);
-    const std::vector<float> wobble = noise_round(3, 2.0 * radius, 0U);
-    const std::vector<float> stains = noise_round(5, 4.0 * radius, 1U);
-    const std::vector<float> fine = noise_round(96, 60.0 * radius, 2U);
-    const std::vector<float> rays = noise_round(160, 5.0 * radius, 3U);
-    const std::vector<float> cracks = noise_round(9, 0.7 * radius, 4U);
-    const std::vector<float> whether = noise_round(5, 0.3, 5U);
+    const std::vector<float> wobble = noise_.row(3, 2.0 * radius, 0U);
+    const std::vector<float> stains = noise_.row(5, 4.0 * radius, 1U);
+    const std::vector<float> fine = noise_.row(96, 60.0 * radius, 2U);
+    const std::vector<float> rays = noise_.row(160, 5.0 * radius, 3U);
+    const std::vector<float> cracks = noise_.row(9, 0.7 * radius, 4U);
+    const std::vector<float> whether = noise_.row(5, 0.3, 5U);
     for (std::size_t x = 0; x < count_; ++x) {
         const double grain = static_cast<double>(fine[x]);
         const double rounded = radius + 0.05 * static_cast<double>(wobble[x]);
@@ -164,10 +244,8 @@ void EndPainter::paint_row(std::size_t y) {
         light += rind * ((0.55 + 0.3 * grain) * bark_ - light);
         const double cambium = rind * (1.0 - smooth_step(0.94, 0.955, rounded));
         light *= 1.0 - 0.5 * cambium;
+        set_colour(images_, y * count_ + x, light);
         const std::size_t at = 3 * (y * count_ + x);
-        for (std::size_t k = 0; k < 3; ++k)
-            images_.rgb[0][at + k] =
-                byte(linear_to_srgb(std::clamp(light[static_cast<int>(k)], 0.0, 1.0)));
         images_.rgb[1][at] = byte(0.5 + 0.12 * static_cast<double>(rays[x]));
         images_.rgb[1][at + 1] = byte(0.5 + 0.12 * grain + 0.06 * (late - 0.3));
         images_.rgb[1][at + 2] = byte(0.985);
@@ -183,12 +261,16 @@ RawImages wood_images(const WoodPaint& paint, const Parallel& parallel) {
     const auto kind = static_cast<std::uint32_t>(paint.substrate);
     const int side = paint.texture_size;
     RawImages images = bark_images(style.bark, wood_seed + kind, side, parallel);
-    EndPainter painter(style, wood_seed + kind, images);
+    EndPainter ends(style, wood_seed + kind, images);
+    BarkWeather bark(wood_seed + kind, images);
     std::vector<std::function<void()>> pieces;
-    for (int first = painter.first(); first < side; first += rows_per_piece)
-        pieces.emplace_back([&painter, first, side] {
+    for (int first = 0; first < side; first += rows_per_piece)
+        pieces.emplace_back([&, first] {
             for (int y = first; y < std::min(side, first + rows_per_piece); ++y)
-                painter.paint_row(static_cast<std::size_t>(y));
+                if (y < ends.first())
+                    bark.paint_row(static_cast<std::size_t>(y));
+                else
+                    ends.paint_row(static_cast<std::size_t>(y));
         });
     parallel(pieces);
     return images;

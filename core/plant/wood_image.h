@@ -14,12 +14,12 @@ struct WoodPaint {
     bool operator==(const WoodPaint&) const = default;
 };
 
-/// Layout in texture coordinates, v downwards: bark above wood_bark_end; below it end grain, u round
-/// the pith, v from the rim to the middle. Both wrap in u.
+/// Layout in texture coordinates, v downwards: bark above wood_bark_end, as much as faces the viewer,
+/// half a girth; below it end grain, u round the pith, v from the rim to the middle. Both wrap in u.
 inline constexpr double wood_bark_end = 0.74, wood_end_rim = 0.77, wood_end_middle = 0.99;
 
 /// The length of the bark of one image along the piece, in girths.
-inline constexpr double wood_girths = 1.48;
+inline constexpr double wood_girths = 0.74;
 
 /// Paints base colour, normal (+Y up) and occlusion-roughness-metalness.
 ///
