@@ -15,6 +15,7 @@
 #include "core/grow/impostor.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"
+#include "core/grow/wood.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
@@ -82,7 +83,7 @@ std::optional<WoodPaint> wood_paint_of(const ColonySpec& spec, const Atlas& atla
     try {
         const Substrate substrate = colony_traits(spec, atlas).substrate;
         if (substrate == Substrate::none || spec.params.lod == impostor_lod) return std::nullopt;
-        return WoodPaint{substrate, {spec.params.texture_size >> spec.params.lod}};
+        return WoodPaint{substrate, wood_side(spec.params.texture_size, spec.params.lod)};
     } catch (const InvalidInput&) {
         return std::nullopt;  // the estimate reports the problem
     }
@@ -103,11 +104,12 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     if (spec.params.textures != Textures::embedded || estimated.texels == 0) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     const std::optional<WoodPaint> wood = wood_paint_of(spec, atlas);
-    const std::uint64_t texels = estimated.texels / (atlases + (wood ? 1 : 0));
+    const Cost of_wood = wood ? cost_of_paint(*wood) : Cost{};
+    const std::uint64_t texels = (estimated.texels - of_wood.bark_texels) / atlases;
     for (int set = 0; set < image_sets(spec.params.variants); ++set)
         cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = atlases * texels},
                                texels);
-    if (wood) cost += cost_of_images(spec.params.file, cost_of_paint(*wood), texels);
+    if (wood) cost += cost_of_images(spec.params.file, of_wood, of_wood.bark_texels);
     return cost;
 }
 
@@ -155,8 +157,9 @@ Estimate guessed(const ColonySpec& spec, const Atlas& atlas) {
                            static_cast<std::uint64_t>(params.count) * 400) >>
                           (2 * std::min(lod, 2));
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
-    guess.texels = images * (static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec))) +
-                             (wood_paint_of(spec, atlas) ? 1 : 0));
+    guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    if (const auto wood = wood_paint_of(spec, atlas); wood && images > 0)
+        guess.texels += cost_of_paint(*wood).bark_texels;
     guess.bytes =
         60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
     guess.triangles = 2 * guess.vertices;

@@ -121,11 +121,16 @@ void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std:
 
 void add_images(Estimate& e, const ColonySpec& spec, Substrate substrate) {
     const std::uint64_t texels = image_texels(spec);
-    const std::uint64_t woods = substrate == Substrate::none ? 0 : 1;
+    std::uint64_t of_wood = 0;
+    if (substrate != Substrate::none && texels > 0) {
+        const auto side =
+            static_cast<std::uint64_t>(wood_side(spec.params.texture_size, spec.params.lod).value);
+        of_wood = 3 * side * side;
+    }
     e.texels =
-        texels * (woods + static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec))));
+        of_wood + texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     add_image_bytes(
-        e, (woods + static_cast<std::uint64_t>(image_sets(spec.params.variants))) * texels / 3,
+        e, (of_wood + static_cast<std::uint64_t>(image_sets(spec.params.variants)) * texels) / 3,
         spec.params.textures, spec.params.file);
     if (has_impostor(spec.params.lod, spec.params.file))
         add_impostor(e, spec.params.texture_size, spec.params.file);
@@ -770,7 +775,8 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     const std::size_t wood_material = scene.materials.size();
     EmbeddedImages images_of_wood;
     if (has_meshes && !colony.wood.positions.empty()) {
-        const WoodPaint paint{*colony.effective.substrate, {params.texture_size >> params.lod}};
+        const WoodPaint paint{*colony.effective.substrate,
+                              wood_side(params.texture_size, params.lod)};
         scene.materials.push_back({.name = wood_name(paint, params.textures), .repeats_u = true});
         images_of_wood = attach_images(
             scene.materials.back(), params.textures, params.file, extras.wood_urls, execution,

@@ -1,8 +1,14 @@
 #include "core/grow/wood.h"
 
+#include <algorithm>
+
 #include "core/grow/product.h"
 
 namespace sporeprint {
+
+ImageSide wood_side(TextureSize texture_size, int lod) {
+    return {std::max(texture_size.value >> (lod + 1), 16)};
+}
 
 std::string image_key(const WoodPaint& paint, ImageFormat format) {
     return key_of_format(format) + "wood " + name(paint.substrate) + ' ' +

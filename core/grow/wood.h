@@ -10,6 +10,13 @@
 
 namespace sporeprint {
 
+/// Returns the side of the images of wood in a file: half of that of the fungi, which are nearer to
+/// the eye.
+///
+/// texture_size  of the request
+/// lod           0..3
+[[nodiscard]] ImageSide wood_side(TextureSize texture_size, int lod);
+
 /// Returns the key of images of wood in the cache.
 [[nodiscard]] std::string image_key(const WoodPaint& paint, ImageFormat format);
 

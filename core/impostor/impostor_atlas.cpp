@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/impostor/fill.h"
+#include "core/math/srgb_table.h"
 #include "core/problems.h"
 #include "core/render/draw_list.h"
-#include "core/render/srgb_table.h"
 #include "core/render/texture.h"
 #include "core/render/visibility.h"
 #include "core/surface/codecs.h"
@@ -26,7 +26,6 @@ namespace {
 using render::Draw;
 using render::DrawList;
 using render::DrawMaterial;
-using render::SrgbTable;
 using render::Visibility;
 
 /// Samples of a texel in each direction.
@@ -353,7 +352,7 @@ ImpostorAtlas impostor_atlas(const GlbScene& scene, int frame_side, const Parall
     atlas.base_color.resize(4 * side * side);
     atlas.normal.resize(3 * side * side);
     atlas.orm.resize(3 * side * side);
-    const SrgbTable srgb;
+    const SrgbTable& srgb = srgb_table();
     FramePainter painter(list, srgb, atlas);
     std::vector<std::function<void()>> tasks;
     for (int row = 0; row < frame_grid; ++row)

@@ -9,6 +9,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
+#include "core/math/srgb_table.h"
 
 namespace sporeprint {
 
@@ -69,6 +70,7 @@ class BarkPainter {
     RawImages images_;
     std::vector<float> heights_;  ///< in girths
     glm::dvec3 ridge_, furrow_, dash_;
+    const SrgbTable& srgb_ = srgb_table();
 };
 
 void BarkPainter::paint_row(std::size_t y) {
@@ -85,7 +87,7 @@ void BarkPainter::paint_row(std::size_t y) {
         const double rise = smooth_step(0.0, 0.3, from_furrow + 0.05 * grain);
         const double lenticel =
             style_.lenticels > 0.0
-                ? smooth_step(0.62 - 0.42 * style_.lenticels, 0.7 - 0.42 * style_.lenticels,
+                ? smooth_step(0.58 - 0.42 * style_.lenticels, 0.76 - 0.42 * style_.lenticels,
                               static_cast<double>(dashes[x]) + 0.06 * grain)
                 : 0.0;
         glm::dvec3 light = ridge_ + style_.furrows * (1.0 - rise) * (furrow_ - ridge_);
@@ -93,8 +95,7 @@ void BarkPainter::paint_row(std::size_t y) {
         light += lenticel * (dash_ - light);
         const std::size_t at = y * count_ + x;
         for (std::size_t k = 0; k < 3; ++k)
-            images_.rgb[0][3 * at + k] =
-                byte(linear_to_srgb(std::clamp(light[static_cast<int>(k)], 0.0, 1.0)));
+            images_.rgb[0][3 * at + k] = srgb_.of(static_cast<float>(light[static_cast<int>(k)]));
         heights_[at] = static_cast<float>(deepest * (style_.furrows * rise * 12.0 / style_.ridges +
                                                      0.04 * grain - 0.08 * lenticel));
         images_.rgb[2][3 * at] = byte(1.0 - 0.55 * style_.furrows * (1.0 - rise));

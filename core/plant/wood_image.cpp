@@ -86,9 +86,10 @@ WoodStyle style_of(Substrate substrate) {
 constexpr std::uint32_t wood_seed = 7;
 constexpr int rows_per_piece = 32;
 
-glm::dvec3 linear(const Colour& colour) {
-    return {srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
-            srgb_to_linear(colour.b / 255.0)};
+/// Colours are mixed as they are encoded, because a power for each of them would take longer than
+/// everything else.
+glm::dvec3 encoded(const Colour& colour) {
+    return glm::dvec3(colour.r, colour.g, colour.b) / 255.0;
 }
 
 std::uint8_t byte(double share) {
@@ -117,16 +118,13 @@ class RowNoise {
 };
 
 glm::dvec3 colour_at(const RawImages& images, std::size_t texel) {
-    const auto light = [&](std::size_t k) {
-        return srgb_to_linear(images.rgb[0][3 * texel + k] / 255.0);
-    };
-    return {light(0), light(1), light(2)};
+    const std::uint8_t* const from = &images.rgb[0][3 * texel];
+    return glm::dvec3(from[0], from[1], from[2]) / 255.0;
 }
 
-void set_colour(RawImages& images, std::size_t texel, const glm::dvec3& light) {
+void set_colour(RawImages& images, std::size_t texel, const glm::dvec3& colour) {
     for (std::size_t k = 0; k < 3; ++k)
-        images.rgb[0][3 * texel + k] =
-            byte(linear_to_srgb(std::clamp(light[static_cast<int>(k)], 0.0, 1.0)));
+        images.rgb[0][3 * texel + k] = byte(colour[static_cast<int>(k)]);
 }
 
 /// Gives bark its fine grain, and the algae and crusts of lichen that grow on it.
@@ -159,17 +157,17 @@ void BarkWeather::paint_row(std::size_t y) {
     const std::vector<float> patches = noise_.row(7, 7.0 * down, 10U);
     const std::vector<float> edges = noise_.row(60, 60.0 * down, 11U);
     const std::vector<float> films = noise_.row(3, 2.0 * down, 12U);
-    const glm::dvec3 lichen(0.44, 0.47, 0.38), algae(0.16, 0.20, 0.07);
+    const glm::dvec3 lichen(0.69, 0.71, 0.65), algae(0.44, 0.49, 0.29);
     for (std::size_t x = 0; x < count_; ++x) {
         const std::size_t at = y * count_ + x;
         const auto rise = static_cast<double>(here[x]);
-        glm::dvec3 light = colour_at(images_, at) * (1.0 + 0.3 * rise);
+        glm::dvec3 colour = colour_at(images_, at) * (1.0 + 0.14 * rise);
         const double film = smooth_step(0.0, 0.6, static_cast<double>(films[x]) + 0.2 * rise);
-        light += 0.35 * film * (algae - light);
+        colour += 0.4 * film * (algae - colour);
         const double crust = smooth_step(
             0.34, 0.42, static_cast<double>(patches[x]) + 0.22 * static_cast<double>(edges[x]));
-        light += 0.75 * crust * ((1.0 + 0.35 * rise) * lichen - light);
-        set_colour(images_, at, light);
+        colour += 0.75 * crust * ((1.0 + 0.16 * rise) * lichen - colour);
+        set_colour(images_, at, colour);
         const auto ahead = static_cast<double>(here[(x + 1) % count_]);
         const double slopes[2] = {steepness * (rise - ahead),
                                   steepness * (static_cast<double>(below[x]) - rise)};
@@ -192,9 +190,9 @@ class EndPainter {
           count_(static_cast<std::size_t>(images.side)),
           noise_(seed, count_),
           images_(images),
-          bark_(0.5 * (linear(style.bark.ridge) + linear(style.bark.furrow))),
-          sapwood_(linear(style.sapwood)),
-          heartwood_(linear(style.heartwood)) {}
+          bark_(0.5 * (encoded(style.bark.ridge) + encoded(style.bark.furrow))),
+          sapwood_(encoded(style.sapwood)),
+          heartwood_(encoded(style.heartwood)) {}
 
     /// Returns the first row that is end grain.
     [[nodiscard]] int first() const {
@@ -230,21 +228,21 @@ void EndPainter::paint_row(std::size_t y) {
         const double late =
             smooth_step(0.45, 0.92, within) * (1.0 - smooth_step(0.93, 1.0, within));
         const double heart = 1.0 - smooth_step(0.5, 0.62, rounded);
-        glm::dvec3 light = sapwood_ + heart * (heartwood_ - sapwood_);
-        light *= 1.0 - 0.35 * late + 0.12 * grain + 0.1 * static_cast<double>(rays[x]);
+        glm::dvec3 colour = sapwood_ + heart * (heartwood_ - sapwood_);
+        colour *= 1.0 - 0.17 * late + 0.055 * grain + 0.045 * static_cast<double>(rays[x]);
         // Sun and rain turn wood grey, unevenly.
         const double grey = 0.3 + 0.35 * static_cast<double>(stains[x]);
-        const double mean = (light.x + light.y + light.z) / 3.0;
-        light += std::clamp(grey, 0.0, 0.7) * (0.75 * glm::dvec3(mean) - light);
+        const double mean = (colour.x + colour.y + colour.z) / 3.0;
+        colour += std::clamp(grey, 0.0, 0.7) * (0.88 * glm::dvec3(mean) - colour);
         const double open = smooth_step(0.0, 0.2, static_cast<double>(whether[x])) * radius;
         const double crack =
             1.0 - smooth_step(0.0, 0.05 * open + 1e-6, std::abs(static_cast<double>(cracks[x])));
-        light *= 1.0 - 0.8 * crack * std::min(1.0, 3.0 * open);
+        colour *= 1.0 - 0.55 * crack * std::min(1.0, 3.0 * open);
         const double rind = smooth_step(0.93, 0.94, rounded - 0.02 * grain);
-        light += rind * ((0.55 + 0.3 * grain) * bark_ - light);
+        colour += rind * ((0.75 + 0.15 * grain) * bark_ - colour);
         const double cambium = rind * (1.0 - smooth_step(0.94, 0.955, rounded));
-        light *= 1.0 - 0.5 * cambium;
-        set_colour(images_, y * count_ + x, light);
+        colour *= 1.0 - 0.28 * cambium;
+        set_colour(images_, y * count_ + x, colour);
         const std::size_t at = 3 * (y * count_ + x);
         images_.rgb[1][at] = byte(0.5 + 0.12 * static_cast<double>(rays[x]));
         images_.rgb[1][at + 1] = byte(0.5 + 0.12 * grain + 0.06 * (late - 0.3));

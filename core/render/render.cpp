@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/math/srgb_table.h"
 #include "core/problems.h"
 #include "core/render/camera.h"
 #include "core/render/draw_list.h"
 #include "core/render/lighting.h"
 #include "core/render/shading.h"
-#include "core/render/srgb_table.h"
 #include "core/render/visibility.h"
 #include "core/surface/codecs.h"
 
@@ -502,7 +502,7 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
     const float height = list.box.max.y - list.box.min.y;
     const bool has_ground =
         scene.stands_on_ground && params.view != View::below && list.box.min.y > -0.4F * height;
-    const render::SrgbTable srgb;
+    const SrgbTable& srgb = srgb_table();
     for (int frame = 0; frame < columns * rows; ++frame)
         render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,
                         parallel)

@@ -8,7 +8,7 @@
 
 #include "core/math/elementary.h"
 
-namespace sporeprint::render {
+namespace sporeprint {
 
 /// sRGB bytes of linear light in steps of 1/4095.
 class SrgbTable {
@@ -28,4 +28,10 @@ class SrgbTable {
     std::array<std::uint8_t, 4096> bytes_{};
 };
 
-}  // namespace sporeprint::render
+/// Returns a table that is made once.
+inline const SrgbTable& srgb_table() {
+    static const SrgbTable table;
+    return table;
+}
+
+}  // namespace sporeprint
