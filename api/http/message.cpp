@@ -35,7 +35,7 @@ constexpr Term terms[] = {
     {&Cost::leaf_row_vertices, 1.0 / 300.0},  // a needle takes a fifth of a birch leaf
     {&Cost::leaf_texels, 0.005},
     {&Cost::bark_atlases, 2000.0},
-    {&Cost::bark_texels, 0.1},  // 512 x 512 takes 78 ms: bark is noise of many octaves
+    {&Cost::bark_texels, 0.05},  // 512 x 512 takes 36 ms: bark is noise of many octaves
     {&Cost::webp_texels, 0.04},
     {&Cost::pixels, 0.008},  // a PNG of 2048 x 2048 takes 26 ms when flat, 60 ms when noisy
     {&Cost::shadow_triangles, 0.04},

@@ -104,12 +104,12 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     if (spec.params.textures != Textures::embedded || estimated.texels == 0) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     const std::optional<WoodPaint> wood = wood_paint_of(spec, atlas);
-    const Cost of_wood = wood ? cost_of_paint(*wood) : Cost{};
-    const std::uint64_t texels = (estimated.texels - of_wood.bark_texels) / atlases;
+    const std::uint64_t of_wood = wood ? texels_of(*wood) : 0;
+    const std::uint64_t texels = (estimated.texels - of_wood) / atlases;
     for (int set = 0; set < image_sets(spec.params.variants); ++set)
         cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = atlases * texels},
                                texels);
-    if (wood) cost += cost_of_images(spec.params.file, of_wood, of_wood.bark_texels);
+    if (wood) cost += cost_of_images(spec.params.file, cost_of_paint(*wood), of_wood);
     return cost;
 }
 
@@ -159,7 +159,7 @@ Estimate guessed(const ColonySpec& spec, const Atlas& atlas) {
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     if (const auto wood = wood_paint_of(spec, atlas); wood && images > 0)
-        guess.texels += cost_of_paint(*wood).bark_texels;
+        guess.texels += texels_of(*wood);
     guess.bytes =
         60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
     guess.triangles = 2 * guess.vertices;
@@ -188,9 +188,10 @@ std::string Colonies::file_name(const ColonySpec& spec, Product product, const A
            ending_of(product);
 }
 
-Cost Colonies::cost(const Context& context, const ColonySpec& spec, Product product,
+Cost Colonies::cost(const Context& context, const ColonySpec& requested, Product product,
                     const Caches& caches, Resolved& resolved) {
-    const Individual& typical = resolved_individual(context, spec, caches, resolved);
+    const Individual& typical = resolved_individual(context, requested, caches, resolved);
+    const ColonySpec spec = at_level(requested, typical, *context.atlas);
     const Estimate estimated = estimate(spec, typical, *context.atlas);
     refuse_over_budget(context.options, estimated, spec.mix.size() > 1, false, spec.params.file);
     Estimate source;

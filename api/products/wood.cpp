@@ -49,9 +49,13 @@ ImageUrls wood_image_urls(const char* product, const WoodPaint& paint) {
     });
 }
 
-Cost cost_of_paint(const WoodPaint& paint) {
+std::uint64_t texels_of(const WoodPaint& paint) {
     const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
-    return {.bark_atlases = 1, .bark_texels = 3 * side * side};
+    return 3 * side * side;
+}
+
+Cost cost_of_paint(const WoodPaint& paint) {
+    return {.bark_atlases = 1, .bark_texels = 2 * texels_of(paint)};
 }
 
 Plan plan_wood_image(RouteCall& call, const char* product, ImageFormat format, Query query) {
@@ -66,10 +70,9 @@ Plan plan_wood_image(RouteCall& call, const char* product, ImageFormat format, Q
     const std::optional<ImageKind> kind = read_image(call.captured[1], call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     const auto decide = [&](ValidationErrors& found) {
-        const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
-        refuse_texels(context.options, 3 * side * side, false, found);
+        refuse_texels(context.options, texels_of(paint), false, found);
         Cost cost = cost_of_paint(paint);
-        if (format == ImageFormat::webp) cost.webp_texels = 3 * side * side;
+        if (format == ImageFormat::webp) cost.webp_texels = texels_of(paint);
         return PaintWork{image_key(paint, format), cost,
                          [paint, format](const ExecutionContext& execution) {
                              return painted_images(paint, execution, format);

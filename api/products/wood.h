@@ -24,7 +24,10 @@ struct WoodAddress {
 /// product  "colonies": the folder of the models that stand on it
 [[nodiscard]] ImageUrls wood_image_urls(const char* product, const WoodPaint& paint);
 
-/// Returns the cost of painting the images of wood.
+/// Returns the number of texels of the images of wood.
+[[nodiscard]] std::uint64_t texels_of(const WoodPaint& paint);
+
+/// Returns the cost of painting the images of wood: twice that of as much bark, for what grows on it.
 [[nodiscard]] Cost cost_of_paint(const WoodPaint& paint);
 
 /// Plans the response to a request for an image of wood: /v1/{product}/wood/{wood}/{image}.

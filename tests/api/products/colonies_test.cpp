@@ -127,6 +127,25 @@ TEST_F(ColoniesTest, LinkTheImagesOfTheWoodThatTheyStandOn) {
         true);
 }
 
+TEST_F(ColoniesTest, AreChargedForTheImagesOfTheirWood) {
+    const auto cost = [&](const std::string& query) {
+        const auto planned =
+            test::plan(service_, get("/v1/colonies/fomes_fomentarius.glb?count=3" + query));
+        const Job* const job = std::get_if<Job>(&planned);
+        EXPECT_TRUE(job != nullptr) << query;
+        return job ? job->cost : Cost{};
+    };
+    const Cost last = cost("&lod=3");
+    EXPECT_EQ(last.texels, 3u * 128 * 128);
+    EXPECT_EQ(last.bark_texels, 2u * 3 * 64 * 64) << "half the side, and twice the work of bark";
+    EXPECT_EQ(cost("&lod=3&substrate=none").bark_texels, 0u);
+    EXPECT_EQ(cost("&lod=3&textures=linked").bark_texels, 0u);
+    // Of a number of triangles the level is not known yet: the first one is charged.
+    const Cost chosen = cost("&triangles=1"), first = cost("&lod=0");
+    EXPECT_EQ(chosen.texels, first.texels);
+    EXPECT_EQ(chosen.bark_texels, first.bark_texels);
+}
+
 TEST_F(ColoniesTest, RepeatMeshesByExtensionOnRequest) {
     const std::string nodes = text_of(ask(small("&textures=none")));
     const std::string gpu = text_of(ask(small("&textures=none&instancing=gpu")));
