@@ -189,11 +189,9 @@ Bark bark_of(const Tree& tree, int lod) {
         for (std::size_t s = 0; s < skin.strips.size(); ++s) {
             const double girth = 2.0 * pi * skin.strips[s].radius;
             for (std::uint32_t i = skin.begins[s]; i < skin.begins[s + 1]; ++i) {
-                // Mirrored repeat, so that the image is continuous at both of its ends.
-                const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
-                const double whole = 2.0 * std::floor(0.5 * images);
-                bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
-                                                      1.0 - std::abs(1.0 - (images - whole)));
+                bark.texture_coordinates.emplace_back(
+                    std::clamp(skin.places[i].x, 0.0, 1.0),
+                    mirrored_place(std::abs(skin.places[i].y) / (bark_girths * girth)));
             }
         }
     }

@@ -10,18 +10,14 @@
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
 #include "core/math/srgb_table.h"
+#include "core/plant/image_rows.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr int rows_per_piece = 32;
 // Largest depth of a furrow, in girths.
 constexpr double deepest = 0.02;
-
-std::uint8_t byte(double share) {
-    return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5));
-}
 
 glm::dvec3 linear(const Colour& colour) {
     return {srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
@@ -98,8 +94,9 @@ void BarkPainter::paint_row(std::size_t y) {
             images_.rgb[0][3 * at + k] = srgb_.of(static_cast<float>(light[static_cast<int>(k)]));
         heights_[at] = static_cast<float>(deepest * (style_.furrows * rise * 12.0 / style_.ridges +
                                                      0.04 * grain - 0.08 * lenticel));
-        images_.rgb[2][3 * at] = byte(1.0 - 0.55 * style_.furrows * (1.0 - rise));
-        images_.rgb[2][3 * at + 1] = byte(0.85 + 0.1 * grain - 0.25 * (1.0 - style_.furrows));
+        images_.rgb[2][3 * at] = share_as_byte(1.0 - 0.55 * style_.furrows * (1.0 - rise));
+        images_.rgb[2][3 * at + 1] =
+            share_as_byte(0.85 + 0.1 * grain - 0.25 * (1.0 - style_.furrows));
     }
 }
 
@@ -116,7 +113,7 @@ void BarkPainter::resolve_normals(std::size_t y) {
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope_x, -slope_y, 1.0));
         for (std::size_t k = 0; k < 3; ++k)
             images_.rgb[1][3 * (y * count_ + x) + k] =
-                byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
+                share_as_byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
     }
 }
 
@@ -129,18 +126,9 @@ RawImages bark_images(const BarkStyle& style, std::uint32_t seed, int side,
     if (side < 16 || side > 2048 || (side & (side - 1)) != 0)
         report(problems, "/side", std::to_string(side) + " is no power of two in 16..2048");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    const auto in_pieces = [&](const auto& row) {
-        std::vector<std::function<void()>> pieces;
-        for (int first = 0; first < side; first += rows_per_piece)
-            pieces.emplace_back([&row, first, side] {
-                for (int y = first; y < std::min(side, first + rows_per_piece); ++y)
-                    row(static_cast<std::size_t>(y));
-            });
-        parallel(pieces);
-    };
     BarkPainter painter(style, seed, side);
-    in_pieces([&](std::size_t y) { painter.paint_row(y); });
-    in_pieces([&](std::size_t y) { painter.resolve_normals(y); });
+    for_each_row(side, parallel, [&](std::size_t y) { painter.paint_row(y); });
+    for_each_row(side, parallel, [&](std::size_t y) { painter.resolve_normals(y); });
     return std::move(painter).take();
 }
 

@@ -1,6 +1,7 @@
 // Bark as an image that wraps once round a segment and is repeated along it, mirrored.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "core/images.h"
@@ -44,6 +45,12 @@ static_assert(well_described<BarkStyle>());
 
 /// The length of one image along a segment, in girths of the segment.
 inline constexpr double bark_girths = 2.0;
+
+/// Returns the place in an image, 0..1, of a point so many images from its start, where every other
+/// image is mirrored: it is continuous at both of its ends.
+inline double mirrored_place(double images) {
+    return 1.0 - std::abs(1.0 - (images - 2.0 * std::floor(0.5 * images)));
+}
 
 /// Paints base colour, normal (+Y up, towards the start of a segment) and
 /// occlusion-roughness-metalness; the images wrap horizontally.

@@ -10,17 +10,13 @@
 
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
+#include "core/plant/image_rows.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr int rows_per_piece = 32;
 constexpr int finest_row = 512;  // points per row that resolve the veins of a leaf
-
-std::uint8_t byte(double share) {
-    return static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5);
-}
 
 // Returns a table of sRGB bytes for linear light in 4096 steps: finer than bytes, except for the
 // darkest.
@@ -28,7 +24,7 @@ const std::array<std::uint8_t, 4097>& encoded_table() {
     static const std::array<std::uint8_t, 4097> table = [] {
         std::array<std::uint8_t, 4097> made{};
         for (std::size_t i = 0; i < made.size(); ++i)
-            made[i] = byte(linear_to_srgb(static_cast<double>(i) / 4096.0));
+            made[i] = share_as_byte(linear_to_srgb(static_cast<double>(i) / 4096.0));
         return made;
     }();
     return table;
@@ -95,7 +91,8 @@ class LeafPainter {
                 {upper ? beyond.upper : beyond.lower, 1.0, (upper ? 0.5 : 0.75) + 0.2 * autumn_});
             for (std::size_t x = 0; x < count_ / 2; ++x) {
                 flat_[0].insert(flat_[0].end(), flat.begin(), flat.begin() + 3);
-                flat_[1].insert(flat_[1].end(), {byte(0.5), byte(0.5), byte(1.0)});
+                flat_[1].insert(flat_[1].end(),
+                                {share_as_byte(0.5), share_as_byte(0.5), share_as_byte(1.0)});
                 flat_[2].insert(flat_[2].end(), {flat[3], flat[4], 0});
             }
         }
@@ -268,7 +265,8 @@ class LeafPainter {
             return encoded_[static_cast<std::size_t>(
                 static_cast<int>(std::clamp(texel.light[k], 0.0, 1.0) * 4096.0 + 0.5))];
         };
-        return {colour(0), colour(1), colour(2), byte(texel.occlusion), byte(texel.roughness)};
+        return {colour(0), colour(1), colour(2), share_as_byte(texel.occlusion),
+                share_as_byte(texel.roughness)};
     }
 
     void put_texel(std::size_t at, const Painted& texel) {
@@ -356,17 +354,8 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
     LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side));
-    const auto in_pieces = [&](const auto& row) {
-        std::vector<std::function<void()>> pieces;
-        for (int first = 0; first < side; first += rows_per_piece)
-            pieces.emplace_back([&row, first, side] {
-                for (int y = first; y < std::min(side, first + rows_per_piece); ++y)
-                    row(static_cast<std::size_t>(y));
-            });
-        parallel(pieces);
-    };
-    in_pieces([&](std::size_t y) { painter.colour_row(y); });
-    in_pieces([&](std::size_t y) { painter.normal_row(y); });
+    for_each_row(side, parallel, [&](std::size_t y) { painter.colour_row(y); });
+    for_each_row(side, parallel, [&](std::size_t y) { painter.normal_row(y); });
     return painter.take();
 }
 

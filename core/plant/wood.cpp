@@ -10,6 +10,7 @@
 #include "core/math/random.h"
 #include "core/mesh/tangents.h"
 #include "core/params/messages.h"
+#include "core/plant/bark_image.h"
 #include "core/plant/wood_image.h"
 #include "core/problems.h"
 
@@ -114,12 +115,10 @@ class WoodBuilder {
             const double down =
                 row == last ? piece_.top - piece_.bottom : static_cast<double>(row) * step_;
             const double height = piece_.top - down;
-            // Mirrored repeat, so that the image is continuous at both of its ends.
-            const double images = down / image_;
-            const double mirrored = 1.0 - std::abs(1.0 - (images - 2.0 * std::floor(0.5 * images)));
+            const double v = wood_bark_end * mirrored_place(down / image_);
             for (const bool is_front : {true, false})
                 for (std::uint32_t column = 0; column <= half; ++column)
-                    add_bark_vertex(is_front, column, height, wood_bark_end * mirrored);
+                    add_bark_vertex(is_front, column, height, v);
         }
         const std::uint32_t round = columns_ + 2;
         for (std::uint32_t row = 0; row < last; ++row)

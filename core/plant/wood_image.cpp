@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
 #include "core/plant/bark_image.h"
+#include "core/plant/image_rows.h"
 #include "core/problems.h"
 
 namespace sporeprint {
@@ -84,16 +84,11 @@ WoodStyle style_of(Substrate substrate) {
 }
 
 constexpr std::uint32_t wood_seed = 7;
-constexpr int rows_per_piece = 32;
 
 /// Colours are mixed as they are encoded, because a power for each of them would take longer than
 /// everything else.
 glm::dvec3 encoded(const Colour& colour) {
     return glm::dvec3(colour.r, colour.g, colour.b) / 255.0;
-}
-
-std::uint8_t byte(double share) {
-    return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5));
 }
 
 /// Noise along the rows of images that wrap.
@@ -124,7 +119,7 @@ glm::dvec3 colour_at(const RawImages& images, std::size_t texel) {
 
 void set_colour(RawImages& images, std::size_t texel, const glm::dvec3& colour) {
     for (std::size_t k = 0; k < 3; ++k)
-        images.rgb[0][3 * texel + k] = byte(colour[static_cast<int>(k)]);
+        images.rgb[0][3 * texel + k] = share_as_byte(colour[static_cast<int>(k)]);
 }
 
 /// Gives bark its fine grain, and the algae and crusts of lichen that grow on it.
@@ -176,9 +171,10 @@ void BarkWeather::paint_row(std::size_t y) {
             normal[k] = images_.rgb[1][3 * at + static_cast<std::size_t>(k)] / 127.5 - 1.0;
         normal = glm::normalize(normal + glm::dvec3(slopes[0], slopes[1], 0.0));
         for (std::size_t k = 0; k < 3; ++k)
-            images_.rgb[1][3 * at + k] = byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
+            images_.rgb[1][3 * at + k] = share_as_byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
         const double roughness = images_.rgb[2][3 * at + 1] / 255.0;
-        images_.rgb[2][3 * at + 1] = byte(roughness + crust * (0.95 - roughness) + 0.06 * rise);
+        images_.rgb[2][3 * at + 1] =
+            share_as_byte(roughness + crust * (0.95 - roughness) + 0.06 * rise);
     }
 }
 
@@ -244,11 +240,12 @@ void EndPainter::paint_row(std::size_t y) {
         colour *= 1.0 - 0.28 * cambium;
         set_colour(images_, y * count_ + x, colour);
         const std::size_t at = 3 * (y * count_ + x);
-        images_.rgb[1][at] = byte(0.5 + 0.12 * static_cast<double>(rays[x]));
-        images_.rgb[1][at + 1] = byte(0.5 + 0.12 * grain + 0.06 * (late - 0.3));
-        images_.rgb[1][at + 2] = byte(0.985);
-        images_.rgb[2][at] = byte(1.0 - 0.6 * crack * std::min(1.0, 3.0 * open) - 0.3 * cambium);
-        images_.rgb[2][at + 1] = byte(0.88 + 0.08 * grain);
+        images_.rgb[1][at] = share_as_byte(0.5 + 0.12 * static_cast<double>(rays[x]));
+        images_.rgb[1][at + 1] = share_as_byte(0.5 + 0.12 * grain + 0.06 * (late - 0.3));
+        images_.rgb[1][at + 2] = share_as_byte(0.985);
+        images_.rgb[2][at] =
+            share_as_byte(1.0 - 0.6 * crack * std::min(1.0, 3.0 * open) - 0.3 * cambium);
+        images_.rgb[2][at + 1] = share_as_byte(0.88 + 0.08 * grain);
     }
 }
 
@@ -261,16 +258,13 @@ RawImages wood_images(const WoodPaint& paint, const Parallel& parallel) {
     RawImages images = bark_images(style.bark, wood_seed + kind, side, parallel);
     EndPainter ends(style, wood_seed + kind, images);
     BarkWeather bark(wood_seed + kind, images);
-    std::vector<std::function<void()>> pieces;
-    for (int first = 0; first < side; first += rows_per_piece)
-        pieces.emplace_back([&, first] {
-            for (int y = first; y < std::min(side, first + rows_per_piece); ++y)
-                if (y < ends.first())
-                    bark.paint_row(static_cast<std::size_t>(y));
-                else
-                    ends.paint_row(static_cast<std::size_t>(y));
-        });
-    parallel(pieces);
+    const auto first_end = static_cast<std::size_t>(ends.first());
+    for_each_row(side, parallel, [&](std::size_t y) {
+        if (y < first_end)
+            bark.paint_row(y);
+        else
+            ends.paint_row(y);
+    });
     return images;
 }
 
