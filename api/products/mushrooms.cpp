@@ -1,7 +1,9 @@
 #include "api/products/mushrooms.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -11,12 +13,15 @@
 #include "api/products/pictures.h"
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
+#include "api/products/wood.h"
 #include "core/grow/collision.h"
 #include "core/grow/impostor.h"
+#include "core/grow/level_choice.h"
 #include "core/grow/levels.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"
+#include "core/grow/wood.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -122,7 +127,6 @@ Estimate weighed(const Context& context, const MushroomSpec& spec, const Caches&
             "a model of your own has no address that images could have; ask for embedded "
             "or none");
     const Estimate cost = estimate(spec, resolved_individual(context, spec, caches, resolved));
-    if (spec.model) resolved.reset();
     refuse_over_budget(context.options, cost, spec.mix.size() > 1,
                        spec.params.animation != Animation::none, spec.params.file);
     return cost;
@@ -135,9 +139,41 @@ std::uint64_t frames_of(const MushroomSpec& spec) {
                : static_cast<std::uint64_t>(spec.params.frames);
 }
 
+/// Returns about the number of triangles of a mushroom at an LOD.
+double usual_triangles(int lod) { return static_cast<double>(24'000 >> (2 * lod)); }
+
+/// Returns the images of the wood in the file of a request; nothing if there are none.
+std::optional<WoodPaint> wood_in_file(const MushroomSpec& spec, const Individual& individual) {
+    if (spec.params.lod == impostor_lod) return std::nullopt;
+    return wood_paint(individual, first_level(spec, individual));
+}
+
+/// Returns the same for a request whose individual is not resolved yet: by the recorded form of its
+/// species, or by the model itself.
+std::optional<WoodPaint> guessed_wood(const MushroomSpec& spec, const Atlas& atlas) {
+    const MushroomParams& params = spec.params;
+    if (params.lod == impostor_lod) return std::nullopt;
+    bool is_bracket = false;
+    if (spec.model) {
+        const auto* const swept = std::get_if<Swept>(&spec.model->shape);
+        is_bracket = swept && swept->azimuth.lateral > 0.0;
+    }
+    for (const MixPart& part : spec.mix)
+        if (const AtlasEntry* const entry = atlas.find(part.id))
+            is_bracket = is_bracket || is_lateral(entry->species.facts.form);
+    const Substrate substrate = params.substrate.value_or(Substrate::beech);
+    if (!is_bracket || substrate == Substrate::none) return std::nullopt;
+    const int first =
+        params.triangles ? nearest_level(*params.triangles, usual_triangles) : params.lod;
+    return WoodPaint{substrate, wood_side(params.texture_size, first)};
+}
+
+/// The images of the wood in the file of a request, resolved or guessed.
+using WoodOf = std::function<std::optional<WoodPaint>(const MushroomSpec&)>;
+
 /// Returns the cost of generating a request with this estimate, without that of its correspondence.
 Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product product,
-             const Atlas& atlas) {
+             const Atlas& atlas, const WoodOf& wood_of) {
     const bool branches = spec.model ? std::holds_alternative<Branched>(spec.model->shape)
                                      : is_branched(spec.mix, atlas);
     Cost cost =
@@ -149,9 +185,12 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
     const auto atlases = static_cast<std::uint64_t>(atlases_held(spec));
+    const std::optional<WoodPaint> wood = wood_of(spec);
+    const std::uint64_t of_wood = wood ? texels_of(*wood) : 0, texels = estimated.texels - of_wood;
     for (int set = 0; set < image_sets(spec.params.variants); ++set)
-        cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
-                               estimated.texels / atlases);
+        cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = texels},
+                               texels / atlases);
+    if (wood) cost += cost_of_images(spec.params.file, cost_of_paint(*wood), of_wood);
     if (spec.model)
         for (const Upload* upload :
              {&spec.model->surface.cap.image, &spec.model->surface.hymenium.image,
@@ -160,25 +199,22 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
     return cost;
 }
 
-/// Returns about the number of triangles of a mushroom at an LOD.
-double usual_triangles(int lod) { return static_cast<double>(24'000 >> (2 * lod)); }
-
 /// Returns the same with that of an impostor: what it shows is generated too.
 ///
 /// source  estimate of impostor_source()
 Cost cost_with_impostor(const MushroomSpec& spec, const Estimate& estimated, const Estimate& source,
-                        Product product, const Atlas& atlas) {
+                        Product product, const Atlas& atlas, const WoodOf& wood_of) {
     if (!has_impostor(spec.params.lod, spec.params.file))
-        return cost_of(spec, estimated, product, atlas);
-    Cost cost = cost_of(impostor_source(spec), source, product, atlas);
-    if (spec.params.lod != impostor_lod) cost += cost_of(spec, estimated, product, atlas);
+        return cost_of(spec, estimated, product, atlas, wood_of);
+    Cost cost = cost_of(impostor_source(spec), source, product, atlas, wood_of);
+    if (spec.params.lod != impostor_lod) cost += cost_of(spec, estimated, product, atlas, wood_of);
     if (spec.params.file.collision != CollisionFormat::none) cost.solids = 1;
     if (product == Product::json) return cost;
     return cost + cost_of_impostor(spec.params.file, estimated, source.triangles);
 }
 
 /// Returns an approximate estimate of a request whose individual is not resolved yet.
-Estimate guessed(const MushroomSpec& spec) {
+Estimate guessed(const MushroomSpec& spec, const Atlas& atlas) {
     const MushroomParams& params = spec.params;
     const int first =
         params.triangles ? nearest_level(*params.triangles, usual_triangles) : params.lod;
@@ -194,6 +230,8 @@ Estimate guessed(const MushroomSpec& spec) {
         add_impostor(guess, params.texture_size, params.file);
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
+    if (const auto wood = guessed_wood(spec, atlas); wood && images > 0)
+        guess.texels += texels_of(*wood);
     guess.bytes =
         60 * guess.vertices + static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3;
     const std::uint64_t frames = frames_of(spec);
@@ -259,7 +297,12 @@ Cost Mushrooms::cost(const Context& context, const MushroomSpec& spec, Product p
     if (has_impostor(spec.params.lod, spec.params.file))
         source =
             estimate(impostor_source(spec), resolved_individual(context, spec, caches, resolved));
-    return cost_with_impostor(spec, estimated, source, product, *context.atlas);
+    const Cost cost = cost_with_impostor(
+        spec, estimated, source, product, *context.atlas, [&](const MushroomSpec& file) {
+            return wood_in_file(file, resolved_individual(context, spec, caches, resolved));
+        });
+    if (spec.model) resolved.reset();
+    return cost;
 }
 
 Cost Mushrooms::search(const MushroomSpec& spec, const Atlas& atlas) {
@@ -267,7 +310,9 @@ Cost Mushrooms::search(const MushroomSpec& spec, const Atlas& atlas) {
 }
 
 Cost Mushrooms::guess(const MushroomSpec& spec, Product product, const Atlas& atlas) {
-    return cost_with_impostor(spec, guessed(spec), guessed(impostor_source(spec)), product, atlas);
+    return cost_with_impostor(spec, guessed(spec, atlas), guessed(impostor_source(spec), atlas),
+                              product, atlas,
+                              [&](const MushroomSpec& file) { return guessed_wood(file, atlas); });
 }
 
 ImageUrls Mushrooms::image_urls(const Context& context, const MushroomSpec& spec,
@@ -276,11 +321,22 @@ ImageUrls Mushrooms::image_urls(const Context& context, const MushroomSpec& spec
     return mushroom_image_urls("mushrooms", surface, surface_address(surface), *context.atlas);
 }
 
+std::optional<ImageUrls> Mushrooms::wood_urls(const MushroomSpec& spec,
+                                              const Individual& individual) {
+    const std::optional<WoodPaint> wood = wood_in_file(spec, individual);
+    if (!wood) return std::nullopt;
+    return wood_image_urls("mushrooms", *wood);
+}
+
 Body Mushrooms::grow(const Context& context, const MushroomSpec& spec, Resolved& resolved,
-                     const Extras& extras, int, const ExecutionContext& execution) {
+                     const Extras& extras, int depth, const ExecutionContext& execution) {
     execution.observer(Step::resolve);
     const Individual& individual = resolved_individual(context, spec, execution.caches, resolved);
-    return grow_mushroom(spec, individual, *context.atlas, extras, execution).glb;
+    Extras with_wood = extras;
+    if (has_addresses(spec.params.textures))
+        if (const std::optional<ImageUrls> urls = wood_urls(spec, individual))
+            with_wood.wood_urls = references_from(depth, *urls);
+    return grow_mushroom(spec, individual, *context.atlas, with_wood, execution).glb;
 }
 
 Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Resolved& resolved,
@@ -289,7 +345,7 @@ Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Reso
     execution.observer(Step::resolve);
     const Individual& individual = resolved_individual(context, spec, execution.caches, resolved);
     execution.observer(Step::build);
-    const Bounds box = bounds(mushroom_mesh(spec, individual));
+    const Bounds box = mushroom_bounds(spec, individual);
     execution.observer(Step::pack);
     Value body = Value::object();
     // The URL of the GLB, which users copy into their applications.
@@ -328,6 +384,13 @@ Plan plan_image_from_url(RouteCall& call) {
     return plan_mushroom_image(
         call, "mushrooms", Format,
         without_parameters_of_model<SurfaceAddress, MushroomParams>(call.target.query));
+}
+
+template <ImageFormat Format>
+Plan plan_wood_image_from_url(RouteCall& call) {
+    return plan_wood_image(
+        call, "mushrooms", Format,
+        without_parameters_of_model<WoodAddress, MushroomParams>(call.target.query));
 }
 
 Plan plan_from_body(RouteCall& call) {
@@ -410,6 +473,23 @@ constexpr Route routes[] = {
      .media_type = "image/webp",
      .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
      .plan = plan_image_from_url<ImageFormat::webp>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/wood/{wood}/{image}.jpg",
+     .id = "get_mushroom_wood_image",
+     .summary = "One image of the wood that a bracket grows on; what textures=linked points to, "
+                "beside those of its atlas.",
+     .media_type = "image/jpeg",
+     .query_schema = [](const Atlas&) { return schema<WoodAddress>(); },
+     .plan = plan_wood_image_from_url<ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/wood/{wood}/{image}.webp",
+     .id = "get_mushroom_wood_image_webp",
+     .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
+     .media_type = "image/webp",
+     .query_schema = [](const Atlas&) { return schema<WoodAddress>(); },
+     .plan = plan_wood_image_from_url<ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

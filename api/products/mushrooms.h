@@ -62,6 +62,9 @@ struct Mushrooms {
     static Cost guess(const MushroomSpec& spec, Product product, const Atlas& atlas);
     static ImageUrls image_urls(const Context& context, const MushroomSpec& spec,
                                 const std::string& version, const ExecutionContext& execution);
+    /// Returns the URLs of the images of the wood in a file; nothing if there is none.
+    static std::optional<ImageUrls> wood_urls(const MushroomSpec& spec,
+                                              const Individual& individual);
     static Body grow(const Context& context, const MushroomSpec& spec, Resolved& resolved,
                      const Extras& extras, int depth, const ExecutionContext& execution);
     static Value describe(const Context& context, const MushroomSpec& spec, Resolved& resolved,

@@ -135,7 +135,7 @@ void each_file(const SetSpec& spec, const SetPlan& plan, Visit visit) {
 Bounds bounds_of(MushroomSpec spec, const Context& context, const ExecutionContext& execution) {
     spec.params.lod = 3;
     spec.params.textures = Textures::none;
-    return bounds(body_mesh(resolve(spec, *context.atlas, execution.caches.morphs), 3));
+    return mushroom_bounds(spec, resolve(spec, *context.atlas, execution.caches.morphs));
 }
 
 /// Returns the manifest of a set.
@@ -167,11 +167,16 @@ Value manifest(const Context& context, const SetSpec& spec, const SetPlan& plan,
         item.set("vertices", one.files[i].vertices).set("triangles", one.files[i].triangles);
         item.set("bytes", size);
         if (has_addresses(file.params.textures)) {
-            const ImageUrls urls = Mushrooms::image_urls(context, file, version, execution);
             Value images = Value::array();
-            for (const std::string& url :
-                 file.params.file.image_format == ImageFormats::jpg ? urls.jpg : urls.webp)
-                images.push(context.responses.link(url));
+            const auto add_images = [&](const ImageUrls& urls) {
+                for (const std::string& url :
+                     file.params.file.image_format == ImageFormats::jpg ? urls.jpg : urls.webp)
+                    images.push(context.responses.link(url));
+            };
+            add_images(Mushrooms::image_urls(context, file, version, execution));
+            if (const std::optional<ImageUrls> wood =
+                    Mushrooms::wood_urls(file, resolve(file, atlas, execution.caches.morphs)))
+                add_images(*wood);
             item.set("images", std::move(images));
         }
         files.push(std::move(item));

@@ -49,11 +49,6 @@ ImageUrls wood_image_urls(const char* product, const WoodPaint& paint) {
     });
 }
 
-std::uint64_t texels_of(const WoodPaint& paint) {
-    const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
-    return 3 * side * side;
-}
-
 Cost cost_of_paint(const WoodPaint& paint) {
     return {.bark_atlases = 1, .bark_texels = 2 * texels_of(paint)};
 }

@@ -21,11 +21,8 @@ struct WoodAddress {
 
 /// Returns the URLs of the images of wood with their versions.
 ///
-/// product  "colonies": the folder of the models that stand on it
+/// product  "colonies" or "mushrooms": the folder of the models that stand on it
 [[nodiscard]] ImageUrls wood_image_urls(const char* product, const WoodPaint& paint);
-
-/// Returns the number of texels of the images of wood.
-[[nodiscard]] std::uint64_t texels_of(const WoodPaint& paint);
 
 /// Returns the cost of painting the images of wood: twice that of as much bark, for what grows on it.
 [[nodiscard]] Cost cost_of_paint(const WoodPaint& paint);

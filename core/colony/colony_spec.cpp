@@ -8,6 +8,7 @@
 
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/model/mentions.h"
 #include "core/params/messages.h"
 
 namespace sporeprint {
@@ -38,10 +39,6 @@ bool has_cap_on_stem(GrowthForm form) {
     return false;
 }
 
-bool is_lateral(GrowthForm form) {
-    return form == GrowthForm::bracket || form == GrowthForm::shelving_agaric;
-}
-
 /// Reports controls of roots and of stems.
 template <class Report>
 void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, const Report& say) {
@@ -56,22 +53,6 @@ void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, co
         else if (!roots && name != "root_radius" && (!stem || name == "stem_decay"))
             say(name, "only habit=rooted has it");
     });
-}
-
-/// Returns what belongs to the word that a text mentions first.
-///
-/// words   each with a text
-/// what    the member that belongs to it
-/// others  what is returned if the text mentions none
-template <class Words, class Word, class What>
-What first_mentioned(std::string_view text, const Words& words, What Word::*what, What others) {
-    std::size_t first = std::string_view::npos;
-    for (const Word& word : words)
-        if (const std::size_t at = text.find(word.text); at < first) {
-            first = at;
-            others = word.*what;
-        }
-    return others;
 }
 
 }  // namespace
@@ -99,23 +80,6 @@ Habit habit_of(const Facts& facts) {
     return is_lateral(facts.form)
                ? Habit::tier
                : first_mentioned(facts.habit.view(), words, &Word::habit, Habit::troop);
-}
-
-Substrate wood_of(const Facts& facts) {
-    struct Word {
-        std::string_view text;
-        Substrate wood;
-    };
-    static constexpr std::array<Word, 9> words = {{{"beech", Substrate::beech},
-                                                   {"birch", Substrate::birch},
-                                                   {"oak", Substrate::oak},
-                                                   {"poplar", Substrate::poplar},
-                                                   {"willow", Substrate::poplar},
-                                                   {"spruce", Substrate::spruce},
-                                                   {"pine", Substrate::spruce},
-                                                   {"conifer", Substrate::spruce},
-                                                   {"broad-leaved", Substrate::beech}}};
-    return first_mentioned(facts.habitat.view(), words, &Word::wood, Substrate::beech);
 }
 
 ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {

@@ -7,7 +7,7 @@
 #include "core/atlas/atlas.h"
 #include "core/colony/root_system.h"
 #include "core/individual/mushroom_spec.h"
-#include "core/plant/wood.h"
+#include "core/model/substrate.h"
 
 namespace sporeprint {
 
@@ -166,9 +166,6 @@ struct ColonySpec {
 
 /// Returns the habit that a species' facts mention first; a troop if they mention none.
 [[nodiscard]] Habit habit_of(const Facts& facts);
-
-/// Returns the wood that a species' facts mention first; that of beech if they mention none.
-[[nodiscard]] Substrate wood_of(const Facts& facts);
 
 /// The properties of a colony that follow from the species of its mix.
 struct ColonyTraits {

@@ -11,6 +11,7 @@
 #include "core/geometry/hymenium.h"
 #include "core/geometry/ornaments.h"
 #include "core/geometry/weathering.h"
+#include "core/geometry/wrap.h"
 #include "core/individual/proportion.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -261,6 +262,7 @@ Mesh swept_mesh(const Individual& individual, DetailLevel level, const SweepOpti
     add_ring(mesh, individual, context);
     add_sac(mesh, individual, context);
     if (budget.solids) add_hymenium(mesh, individual, lower, context, budget);
+    wrap_round_trunk(mesh, individual.bending_radius());
     return mesh;
 }
 

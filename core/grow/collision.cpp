@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/grow/mushroom.h"
+#include "core/grow/wood.h"
 #include "core/plant/tree.h"
 #include "core/surface/charts.h"
 
@@ -161,7 +163,12 @@ std::vector<CollisionShape> collision_shapes(const Individual& individual) {
     const std::vector<std::uint32_t> body =
         triangles_of(mesh, [](Part part) { return part != Part::veil; });
     std::vector<CollisionShape> whole = fitted("body", body);
-    if (whole.size() == 1 || grows_from_wall(individual.parts.front().model)) return whole;
+    if (const std::optional<WoodPiece> piece = wood_behind(individual)) {
+        const Mesh wood = wood_mesh(*piece, last_lod, false);
+        for (CollisionShape& shape : fitted_shapes("wood", wood.positions, wood.indices))
+            whole.push_back(std::move(shape));
+    }
+    if (whole.size() == 1 || individual.grows_from_wall()) return whole;
     std::vector<CollisionShape> shapes =
         fitted("stem", triangles_of(mesh, [](Part part) { return part == Part::stem; }));
     std::vector<CollisionShape> cap = fitted("cap", triangles_of(mesh, [](Part part) {

@@ -29,8 +29,9 @@ struct Collision {
 };
 
 /// Returns the solids of a mushroom, the same at every level of detail: those of the whole if its
-/// hollows are small or if it grows from a wall, otherwise those of its cap and its stem. Rings,
-/// volvas and warts are left out, because what touches them moves them.
+/// hollows are small or if it grows from a wall, then with those of the wood behind it, otherwise
+/// those of its cap and its stem. Rings, volvas and warts are left out, because what touches them
+/// moves them.
 ///
 /// cost  that of the mesh at LOD 1, and some ten milliseconds
 [[nodiscard]] std::vector<CollisionShape> collision_shapes(const Individual& individual);

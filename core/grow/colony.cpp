@@ -69,6 +69,7 @@ MushroomSpec individual_spec(const ColonySpec& spec, int which) {
                          ? params.age * (1.0 - params.age_spread * which / (params.distinct - 1))
                          : params.age;
     own.params.lod = cap_lod(params.lod);
+    own.params.substrate = Substrate::none;  // the colony has one for all
     own.params.textures = params.textures;
     own.params.file = params.file;
     return own;
@@ -122,11 +123,8 @@ void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std:
 void add_images(Estimate& e, const ColonySpec& spec, Substrate substrate) {
     const std::uint64_t texels = image_texels(spec);
     std::uint64_t of_wood = 0;
-    if (substrate != Substrate::none && texels > 0) {
-        const auto side =
-            static_cast<std::uint64_t>(wood_side(spec.params.texture_size, spec.params.lod).value);
-        of_wood = 3 * side * side;
-    }
+    if (substrate != Substrate::none && texels > 0)
+        of_wood = texels_of({substrate, wood_side(spec.params.texture_size, spec.params.lod)});
     e.texels =
         of_wood + texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     add_image_bytes(
@@ -450,6 +448,29 @@ struct ModelSet {
     std::vector<std::vector<CollisionShape>> shapes;  ///< empty unless the file has collision
 };
 
+/// Returns the distinct individuals of a colony. Brackets are bent round its trunk, whose radius
+/// depends on how wide they are, which bending does not change.
+///
+/// fit  of the typical individual; enlarged to the widest bracket
+std::vector<Individual> distinct_individuals(const ColonySpec& spec, const ColonyTraits& traits,
+                                             const Atlas& atlas, const ExecutionContext& execution,
+                                             StemFit& fit) {
+    const ColonyParams& params = spec.params;
+    std::vector<Individual> individuals;
+    for (int which = 0; which < params.distinct; ++which) {
+        throw_if_cancelled(execution);
+        Individual& one = individuals.emplace_back(
+            resolve(individual_spec(spec, which), atlas, execution.caches.morphs));
+        // All members use the images of one mushroom, so what they show is where it is painted.
+        one.painted_seed = painted_seed(params.seed, params.share);
+        if (traits.lateral)
+            fit = wide_enough(fit, body_mesh(one, placement_lod, {.textured = false}), which == 0);
+    }
+    if (traits.lateral)
+        for (Individual& one : individuals) one.trunk_radius = trunk_radius(params, fit);
+    return individuals;
+}
+
 /// Adds the meshes of the distinct individuals of a colony.
 ///
 /// fit      of the typical individual; enlarged to the widest mesh if mushrooms stand as a whole
@@ -457,12 +478,10 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
                     const ExecutionContext& execution, Colony& colony, StemFit& fit) {
     const ColonyParams& params = spec.params;
     ModelSet models;
-    for (int which = 0; which < params.distinct; ++which) {
+    const std::vector<Individual> individuals =
+        distinct_individuals(spec, traits, atlas, execution, fit);
+    for (const Individual& one : individuals) {
         throw_if_cancelled(execution);
-        const MushroomSpec own = individual_spec(spec, which);
-        Individual one = resolve(own, atlas, execution.caches.morphs);
-        // All members use the images of one mushroom, so what they show is where it is painted.
-        one.painted_seed = painted_seed(params.seed, params.share);
         // Placement uses one level of detail, so that members are moved or skipped alike at every
         // level.
         const auto grown = [&](int lod, bool with_texture) {
@@ -482,7 +501,8 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
         const Mesh& own_mesh = colony.models.back();
         const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
         const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
-        if (!traits.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
+        if (!traits.capped && !traits.lateral)
+            fit = wide_enough(fit, footprint_mesh, models.models.empty());
         models.models.push_back(
             {OccupancyGrid(footprint_mesh), traits.capped ? stem_fit(one).radius : fit.radius});
         if (params.file.wind != WindFormat::none) models.stems.push_back(swaying_stem(one));
@@ -777,10 +797,8 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     if (has_meshes && !colony.wood.positions.empty()) {
         const WoodPaint paint{*colony.effective.substrate,
                               wood_side(params.texture_size, params.lod)};
-        scene.materials.push_back({.name = wood_name(paint, params.textures), .repeats_u = true});
-        images_of_wood = attach_images(
-            scene.materials.back(), params.textures, params.file, extras.wood_urls, execution,
-            [&](ImageFormat format) { return painted_images(paint, execution, format); });
+        images_of_wood =
+            add_wood_material(scene, paint, params.textures, params.file, extras, execution);
     }
     execution.observer(Step::pack);
     std::vector<Level> levels{{params.lod}};

@@ -52,8 +52,8 @@ std::vector<double> frame_ages(int frames) {
     return ages;
 }
 
-GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh& mesh,
-                       const ExecutionContext& execution) {
+GrowthClip growth_clip(const MushroomSpec& spec, const Individual& individual, const Atlas& atlas,
+                       const Mesh& mesh, const ExecutionContext& execution) {
     const std::vector<double> ages = frame_ages(spec.params.frames);
     GrowthClip growth;
     growth.targets.resize(ages.size());
@@ -70,13 +70,15 @@ GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh&
         const double age = ages[k];
         MushroomSpec frame = spec;
         frame.params.age = age;
+        frame.params.substrate = Substrate::none;
         frame.params.textures = Textures::none;  // texture coordinates are those of the base mesh
-        Individual individual = at_age(age, [&] { return resolve(frame, atlas, morphs); });
-        pieces.emplace_back([&, k, age, frame, individual = std::move(individual)] {
+        Individual at_frame = at_age(age, [&] { return resolve(frame, atlas, morphs); });
+        at_frame.trunk_radius = individual.trunk_radius;
+        pieces.emplace_back([&, k, age, frame, at_frame = std::move(at_frame)] {
             try {
                 throw_if_cancelled(execution);
                 growth.targets[k] =
-                    difference(mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }),
+                    difference(mesh, at_age(age, [&] { return mushroom_mesh(frame, at_frame); }),
                                age, frame.params.targets);
             } catch (...) {
                 errors[k] = std::current_exception();

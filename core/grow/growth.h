@@ -7,7 +7,7 @@
 #include "core/atlas/atlas.h"
 #include "core/gltf/glb.h"
 #include "core/grow/execution_context.h"
-#include "core/individual/mushroom_spec.h"
+#include "core/individual/individual.h"
 #include "core/mesh/mesh.h"
 
 namespace sporeprint {
@@ -29,12 +29,14 @@ struct GrowthClip {
 /// viewer shows their weighted mean; without playback it shows the mesh itself. Key k is at k /
 /// (frames - 1) * growth_seconds.
 ///
-/// spec     with animation growth
-/// mesh     mushroom_mesh() of the spec
-/// throws   Impossible if the spec cannot be grown at one of the ages, which the message names;
-///          Cancelled
-/// cost     that of one mesh per frame
-[[nodiscard]] GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh& mesh,
+/// spec        with animation growth
+/// individual  resolve() of the spec; a bracket grows on its wood at all ages
+/// mesh        mushroom_mesh() of the spec
+/// throws      Impossible if the spec cannot be grown at one of the ages, which the message names;
+///             Cancelled
+/// cost        that of one mesh per frame
+[[nodiscard]] GrowthClip growth_clip(const MushroomSpec& spec, const Individual& individual,
+                                     const Atlas& atlas, const Mesh& mesh,
                                      const ExecutionContext& execution);
 
 }  // namespace sporeprint

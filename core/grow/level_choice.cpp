@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/grow/mushroom.h"
+#include "core/grow/wood.h"
 #include "core/individual/proportion.h"
 
 namespace sporeprint {
@@ -15,7 +16,8 @@ namespace {
 constexpr int last_whole = static_cast<int>(details.size()) - 1;
 
 double triangles_at(const Individual& individual, DetailLevel level, bool grows) {
-    return static_cast<double>(body_count(individual, level, grows).triangles);
+    return static_cast<double>(body_count(individual, level, grows).triangles +
+                               wood_count(individual, level).triangles);
 }
 
 /// Returns true if a mesh of this level is as sound as those of whole levels, at which every outline

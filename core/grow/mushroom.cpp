@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "core/geometry/branch_plan.h"
 #include "core/geometry/branches.h"
@@ -15,6 +16,7 @@
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
 #include "core/grow/variants.h"
+#include "core/grow/wood.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/messages.h"
@@ -45,6 +47,12 @@ void refuse_impossible(const MushroomParams& params) {
                              " is impossible for an impostor, which shows one age; ask for none");
 }
 
+/// Returns the first level of detail of a file; of an impostor alone that which it shows.
+DetailLevel shown_level(const MushroomSpec& spec, const Individual& individual) {
+    return spec.params.lod == impostor_lod ? DetailLevel(impostor_source_lod)
+                                           : first_level(spec, individual);
+}
+
 /// Returns the mesh of each level of detail of a file; none for an impostor alone.
 std::vector<Mesh> level_meshes(const MushroomSpec& spec, const Individual& individual,
                                const ExecutionContext& execution) {
@@ -56,12 +64,42 @@ std::vector<Mesh> level_meshes(const MushroomSpec& spec, const Individual& indiv
     return meshes;
 }
 
-}  // namespace
-
-bool grows_from_wall(const Model& model) {
-    const auto* const swept = std::get_if<Swept>(&model.shape);
-    return swept && swept->azimuth.lateral > 0.25;
+/// Returns the mesh of the wood behind a bracket at each level of detail of a file; none for what
+/// stands on none.
+std::vector<Mesh> wood_meshes(const MushroomSpec& spec, const Individual& individual) {
+    std::vector<Mesh> meshes;
+    if (const std::optional<WoodPiece> piece = wood_behind(individual))
+        for (const DetailLevel level : levels_in_file(spec, individual)) {
+            Mesh& mesh = meshes.emplace_back(wood_mesh(*piece, wood_lod(level), textured(spec)));
+            if (spec.params.file.wind != WindFormat::none) mesh.sway.resize(mesh.positions.size());
+        }
+    return meshes;
 }
+
+/// Adds the levels of a mushroom: each a node with a mesh, or with its wood two of them.
+///
+/// primitives     of the mushroom and of its impostor, by level
+/// wood           by level; none for what stands on none
+/// wood_material  index of that of the wood
+void add_levels(GlbScene& scene, const MushroomSpec& spec,
+                const std::vector<std::vector<GlbPrimitive>>& primitives,
+                const std::vector<Mesh>& wood, std::size_t wood_material,
+                std::span<const Level> levels) {
+    const Lods lods = spec.params.file.lods;
+    if (wood.empty()) return add_levels(scene, product_name(spec), primitives, levels, lods);
+    const auto add = [&](const std::string& name, const std::vector<GlbPrimitive>& of_mesh) {
+        scene.nodes.push_back({.name = name, .mesh = scene.meshes.size()});
+        scene.meshes.push_back({name, of_mesh});
+    };
+    add_grouped_levels(scene, product_name(spec), levels, lods,
+                       [&](std::size_t i, const std::string& name) {
+                           add(name + "_fruitbody", primitives[i]);
+                           if (i < wood.size())
+                               add(name + "_wood", {{&wood[i], wood_material, {}, {}}});
+                       });
+}
+
+}  // namespace
 
 MaterialLook look_of(const Model& model) {
     const Material& material = model.material;
@@ -95,21 +133,32 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
         const MeshCount mesh = body_count(individual, level, grows);
         add_level(e, mesh.vertices, mesh.triangles, params.textures, params.file);
     }
+    const std::uint64_t moved_vertices = e.vertices;
+    for (const DetailLevel level : levels) {
+        const MeshCount wood = wood_count(individual, level);
+        if (wood.vertices > 0)
+            add_level(e, wood.vertices, wood.triangles, params.textures, params.file);
+    }
     const bool has_skin = textured(spec) && !levels.empty();
     const auto side = static_cast<std::uint64_t>(params.texture_size) >>
                       (levels.empty() ? 0 : levels.front().nearest());
     const std::uint64_t images = has_skin ? 3 * side * side : 0;
-    e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
+    std::uint64_t of_wood = 0;
+    if (has_skin)
+        if (const std::optional<WoodPaint> paint = wood_paint(individual, levels.front()))
+            of_wood = texels_of(*paint);
+    e.texels = of_wood + images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    add_image_bytes(e, static_cast<std::uint64_t>(image_sets(params.variants)) * images / 3,
-                    params.textures, params.file);
+    add_image_bytes(
+        e, (of_wood + static_cast<std::uint64_t>(image_sets(params.variants)) * images) / 3,
+        params.textures, params.file);
     add_solid_bytes(e, 1, 0, params.file);
     if (has_impostor(params.lod, params.file)) add_impostor(e, params.texture_size, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
         const std::uint64_t moved = params.targets == Targets::position ? 12 : 24;
-        e.bytes += e.vertices * moved * frames + 600 * frames;
-        e.vertices += e.vertices * frames;
+        e.bytes += moved_vertices * moved * frames + 600 * frames;
+        e.vertices += moved_vertices * frames;
     }
     return e;
 }
@@ -126,9 +175,14 @@ MeshCount body_count(const Individual& individual, DetailLevel level, bool keep_
 }
 
 Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
-    return ordered_mesh(spec, individual,
-                        spec.params.lod == impostor_lod ? DetailLevel(impostor_source_lod)
-                                                        : first_level(spec, individual));
+    return ordered_mesh(spec, individual, shown_level(spec, individual));
+}
+
+Bounds mushroom_bounds(const MushroomSpec& spec, const Individual& individual) {
+    const Bounds box = bounds(mushroom_mesh(spec, individual));
+    const std::optional<WoodPiece> piece = wood_behind(individual);
+    if (!piece) return box;
+    return united(box, bounds(wood_mesh(*piece, wood_lod(shown_level(spec, individual)), false)));
 }
 
 double outline_error(const Individual& individual, DetailLevel level, double radius) {
@@ -158,8 +212,10 @@ std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individ
     for (const DetailLevel level :
          is_chain ? levels_in_file(spec, individual)
                   : levels_from(first_level(spec, individual), individual, grows)) {
-        const MeshCount count = body_count(individual, level, grows);
-        levels.push_back({level, count.vertices, count.triangles, 0.0});
+        const MeshCount count = body_count(individual, level, grows),
+                        wood = wood_count(individual, level);
+        levels.push_back(
+            {level, count.vertices + wood.vertices, count.triangles + wood.triangles, 0.0});
         errors.push_back(outline_error(individual, level, radius));
     }
     if (has_impostor(spec.params.lod, spec.params.file))
@@ -181,6 +237,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     const MushroomParams& params = spec.params;
     refuse_impossible(params);
     std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
+    const std::vector<Mesh> wood = wood_meshes(spec, individual);
     std::optional<Impostor> impostor;
     if (has_impostor(params.lod, params.file))
         impostor = impostor_of(
@@ -201,7 +258,8 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     throw_if_cancelled(execution);
     const bool has_skin = !meshes.empty();
     const Mesh& first = has_skin ? meshes.front() : impostor->cards;
-    const Bounds box = has_skin ? bounds(first) : impostor->box;
+    Bounds box = has_skin ? bounds(first) : impostor->box;
+    if (!wood.empty()) box = united(box, bounds(wood.front()));
     const MushroomSpec images_of = image_spec(spec, individual);
     std::vector<Level> levels = params.file.lods != Lods::single
                                     ? levels_of(spec, individual, box)
@@ -212,10 +270,10 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     if (has_skin)
         scene.materials.push_back(
             {.name = skin_name(images_of), .look = look_of(individual.model)});
-    scene.stands_on_ground = !grows_from_wall(individual.model);
+    scene.stands_on_ground = !individual.grows_from_wall();
     GrowthClip growth;
     if (params.animation == Animation::growth) {
-        growth = growth_clip(spec, atlas, first, execution);
+        growth = growth_clip(spec, individual, atlas, first, execution);
         scene.clip = &growth.clip;
     }
     EmbeddedImages images;
@@ -231,6 +289,11 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                      extras, execution, [&](const MushroomSpec& painted) {
                          return paint_spec_of(painted, atlas, execution.caches);
                      });
+    const std::size_t wood_material = scene.materials.size();
+    EmbeddedImages images_of_wood;
+    if (!wood.empty())
+        images_of_wood = add_wood_material(scene, *wood_paint(individual, levels.front().lod),
+                                           params.textures, params.file, extras, execution);
     execution.observer(Step::pack);
     Mushroom grown;
     std::vector<std::vector<GlbPrimitive>> primitives;
@@ -242,12 +305,19 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
             {{&impostor->cards, add_material(scene, *impostor, product_name(spec))}});
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         const Mesh& mesh = *primitives[i].front().mesh;
-        grown.vertices += levels[i].vertices = mesh.positions.size();
-        grown.triangles += levels[i].triangles = mesh.triangles();
+        levels[i].vertices = mesh.positions.size();
+        levels[i].triangles = mesh.triangles();
+        if (i < wood.size()) {
+            levels[i].vertices += wood[i].positions.size();
+            levels[i].triangles += wood[i].triangles();
+        }
+        grown.vertices += levels[i].vertices;
+        grown.triangles += levels[i].triangles;
     }
-    add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
-    scene.extras_json = dump(extras_value(extras, write(individual.effective), box,
-                                          first.triangles(), {levels, params.file.lods}, wind));
+    add_levels(scene, spec, primitives, wood, wood_material, levels);
+    scene.extras_json =
+        dump(extras_value(extras, write(individual.effective), box, levels.front().triangles,
+                          {levels, params.file.lods}, wind));
     add_collision(scene, collision, levels.front().name, params.file.collision);
     grown.glb = extras.write(scene, execution.parallel);
     return grown;

@@ -34,6 +34,9 @@ namespace sporeprint {
 /// shows.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual);
 
+/// Returns the bounding box of that mesh and of the wood behind it.
+[[nodiscard]] Bounds mushroom_bounds(const MushroomSpec& spec, const Individual& individual);
+
 /// Returns about the largest distance of the outline of a mesh at a level of detail from the true
 /// one, metres: that of the polygons around its widest part and over its cap, or that of the gaps
 /// that missing branches leave.
@@ -47,9 +50,6 @@ namespace sporeprint {
 /// box  of the mesh
 [[nodiscard]] std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individual,
                                            const Bounds& box);
-
-/// Returns true for a model that grows forwards from a wall: a bracket.
-[[nodiscard]] bool grows_from_wall(const Model& model);
 
 /// Returns the material beyond its images. Slime and water are a clear coat; velvet shines in the
 /// cap's own colours.

@@ -176,6 +176,7 @@ MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Ca
     params.seed = painted_seed(params.seed, params.share);
     params.share = ImageShare::individual;
     params.variants = Variants::none;
+    params.substrate.reset();
     stepped.arcs.clear();
     if (spec.model) return stepped;
     params.deformation = {};

@@ -125,7 +125,10 @@ MushroomSpec file_spec(const SetSpec& spec, const SetIndividual& individual, std
     one.params.lod = spec.params.levels[level];
     one.params.triangles.reset();
     // The levels of one file are those of the set.
-    if (spec.packing == SetPacking::one_file) one.params.file.lods = Lods::single;
+    if (spec.packing == SetPacking::one_file) {
+        one.params.file.lods = Lods::single;
+        one.params.substrate = Substrate::none;
+    }
     return one;
 }
 

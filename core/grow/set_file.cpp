@@ -189,6 +189,11 @@ void refuse_in_one_file(const SetSpec& spec) {
         throw Impossible("/animation", std::string("'") + name(mushroom.animation) +
                                            "' is impossible: a clip moves one individual; ask for "
                                            "none, or for an archive");
+    if (mushroom.substrate.value_or(Substrate::none) != Substrate::none)
+        throw Impossible("/substrate", std::string("'") + name(*mushroom.substrate) +
+                                           "' is impossible for a set in one file, whose "
+                                           "individuals stand without wood; ask for none, or for "
+                                           "an archive");
     if (mushroom.variants != Variants::none)
         throw Impossible("/variants", std::string("'") + name(mushroom.variants) +
                                           "' is impossible for a set in one file; ask for none, or "

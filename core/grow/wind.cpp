@@ -58,7 +58,7 @@ double deflection(double along) {
 }
 
 SwayingStem swaying_stem(const Individual& individual) {
-    if (grows_from_wall(individual.parts.front().model)) return {};
+    if (individual.grows_from_wall()) return {};
     const StemFit fit = stem_fit(individual);
     if (individual.is_branched()) return {fit.height, fit.radius, fit.height, fit.cap_radius};
     double top = fit.height;

@@ -2,12 +2,58 @@
 
 #include <algorithm>
 
-#include "core/grow/product.h"
+#include "core/grow/names.h"
+#include "core/individual/proportion.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
 
 namespace sporeprint {
 
+namespace {
+
+/// How far the wood goes on above and below a bracket, and how far behind its bark it is split, in
+/// radii of the wood. A bracket reaches no farther round it.
+constexpr double beyond_bracket = 0.5, split_behind = 0.75;
+
+}  // namespace
+
+std::optional<WoodPiece> wood_behind(const Individual& individual) {
+    if (individual.effective.substrate.value_or(Substrate::none) == Substrate::none)
+        return std::nullopt;
+    const Outline& outline = individual.outline;
+    Extent extent{individual.stem_base, individual.stem_base};
+    for (const SubCurve* curve : {&outline.stem, &outline.hymenium, &outline.cap})
+        extent.include(*curve);
+    std::uint32_t names = 0;
+    for (const SpeciesShare& part : individual.parts) names ^= stream_of(part.id);
+    const double beyond = beyond_bracket * individual.trunk_radius;
+    return WoodPiece{.radius = individual.trunk_radius,
+                     .bottom = extent.low - beyond,
+                     .top = extent.high + beyond,
+                     .seed = Random(individual.effective.seed, purposes::wood, names).bits(),
+                     .split = split_behind * individual.trunk_radius};
+}
+
+int wood_lod(DetailLevel level) { return std::min(level.nearest(), last_lod); }
+
+MeshCount wood_count(const Individual& individual, DetailLevel level) {
+    const std::optional<WoodPiece> piece = wood_behind(individual);
+    return piece ? wood_count(*piece, wood_lod(level)) : MeshCount{};
+}
+
+std::optional<WoodPaint> wood_paint(const Individual& individual, DetailLevel first) {
+    const Substrate substrate = individual.effective.substrate.value_or(Substrate::none);
+    if (substrate == Substrate::none) return std::nullopt;
+    return WoodPaint{substrate, wood_side(individual.effective.texture_size, first.nearest())};
+}
+
 ImageSide wood_side(TextureSize texture_size, int lod) {
     return {std::max(texture_size.value >> (lod + 1), 16)};
+}
+
+std::uint64_t texels_of(const WoodPaint& paint) {
+    const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
+    return 3 * side * side;
 }
 
 std::string image_key(const WoodPaint& paint, ImageFormat format) {
@@ -23,6 +69,15 @@ std::shared_ptr<const ImageSet> painted_images(const WoodPaint& paint,
         throw_if_cancelled(execution);
         return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
     });
+}
+
+EmbeddedImages add_wood_material(GlbScene& scene, const WoodPaint& paint, Textures textures,
+                                 const FileOptions& file, const Extras& extras,
+                                 const ExecutionContext& execution) {
+    scene.materials.push_back({.name = wood_name(paint, textures), .repeats_u = true});
+    return attach_images(
+        scene.materials.back(), textures, file, extras.wood_urls, execution,
+        [&](ImageFormat format) { return painted_images(paint, execution, format); });
 }
 
 }  // namespace sporeprint

@@ -1,6 +1,7 @@
 // A resolved individual: a request with everything decided. Geometry and painting read from it.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -68,6 +69,7 @@ struct Individual {
     /// 0..1: how much more the cap has grown in circumference than along its meridian.
     double radial_strain = 0.0;
     AxisCurve axis;
+    double trunk_radius = 0.0;         ///< of the wood that a bracket grows round, metres; 0: none
     Azimuth azimuth;                   ///< the fan; its members of lobes are unused, see `lobes`
     std::vector<Azimuth> lobes;        ///< one per species with lobes, depth times weight
     std::vector<ReliefStyle> reliefs;  ///< of the upper face, one per form, depth times weight
@@ -87,6 +89,16 @@ struct Individual {
 
     /// Returns true for the branched family, false for the swept one.
     [[nodiscard]] bool is_branched() const { return !branch_graph.empty(); }
+    /// Returns true for what grows forwards from a wall: brackets.
+    [[nodiscard]] bool grows_from_wall() const { return azimuth.lateral > wall_from; }
+    /// Returns the radius of the trunk round which it is bent, metres; 0 for a flat wall. Of a mix
+    /// that is a bracket only in part it is larger than that of the wood.
+    [[nodiscard]] double bending_radius() const {
+        return trunk_radius / std::clamp((azimuth.lateral - wall_from) / 0.5, 1e-9, 1.0);
+    }
+
+    /// How lateral is what begins to grow from a wall.
+    static constexpr double wall_from = 0.25;
 };
 
 }  // namespace sporeprint

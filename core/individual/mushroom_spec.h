@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/model.h"
+#include "core/model/substrate.h"
 #include "core/params/profile.h"
 #include "core/params/shared_params.h"
 #include "core/silhouette/morph_set.h"
@@ -47,6 +48,7 @@ struct MushroomParams {
     ImageShare share = ImageShare::individual;
     Variants variants = Variants::none;
     Base base = Base::natural;
+    std::optional<Substrate> substrate;
     FileOptions file;
     DeformationOf<Maybe> deformation;
     OrnamentsOf<Maybe> ornaments;
@@ -80,6 +82,10 @@ struct MushroomParams {
         visit(&P::share, share_info);
         visit(&P::variants, variants_info);
         visit(&P::base, base_info);
+        visit(&P::substrate,
+              Info{.name = "substrate",
+                   .doc = "What a bracket grows on: a piece of wood with the bark of this tree, by "
+                          "default of one that the species grows on, or nothing."});
         visit(&P::file, file_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});

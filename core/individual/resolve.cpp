@@ -23,6 +23,9 @@ namespace {
 constexpr int most_pores = 3000;  // as solids; denser ones exist in the images alone
 constexpr double most_natural_fold =
     0.6;  // curvature of the axis times the radius of the stem; it folds at 1
+/// The radius of the wood behind a bracket: in radii of the bracket, so that the bracket stays the
+/// larger part of a picture, and at least, metres.
+constexpr double trunk_by_bracket = 1.25, least_trunk = 0.006;
 /// How much farther from its axis the surface of a stem is at irregularity 1, in radii, about.
 constexpr double widening_by_irregularity = 1.3;
 
@@ -401,6 +404,33 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
     }
 }
 
+/// Decides what an individual stands on: wood behind a bracket alone, by default that of the species
+/// with the largest weight.
+///
+/// throws  Impossible for wood behind what stands on the ground
+void resolve_substrate(Individual& individual, const std::vector<Source>& sources) {
+    std::optional<Substrate>& substrate = individual.effective.substrate;
+    if (individual.grows_from_wall()) {
+        const auto most = std::max_element(
+            sources.begin(), sources.end(),
+            [](const Source& one, const Source& other) { return one.weight < other.weight; });
+        substrate = substrate.value_or(most->wood);
+        if (*substrate == Substrate::none) return;
+        Extent extent{individual.stem_base, individual.stem_base};
+        for (const SubCurve* curve : {&individual.outline.hymenium, &individual.outline.cap})
+            extent.include(*curve);
+        individual.trunk_radius = std::max(trunk_by_bracket * extent.radius, least_trunk);
+        return;
+    }
+    if (substrate.value_or(Substrate::none) != Substrate::none)
+        throw Impossible("/substrate",
+                         std::string("'") + name(*substrate) +
+                             "' is wood for what grows from a wall; " +
+                             (sources.size() > 1 ? "this mix" : sources.front().label) +
+                             " stands on the ground");
+    substrate.reset();
+}
+
 // Returns the sources of a specification, all of whose parameters they can have.
 //
 // throws  InvalidInput, Impossible
@@ -468,6 +498,7 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
 
     if (!sources.front().is_branched()) resolve_ornaments(individual, requested, sources);
     report_effective(individual.effective, model, sources);
+    resolve_substrate(individual, sources);
     for (Source& source : sources) {
         const CellRows cells = cells_of(source);
         individual.parts.push_back({source.id, source.weight, std::move(source.now), cells});

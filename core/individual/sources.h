@@ -30,7 +30,8 @@ struct Source {
     std::vector<double> growth;  ///< growth weight of each stage at this age; at most two are not 0
     std::vector<double> mature;  ///< growth weight of each stage at maturity
     double size = 1.0;           ///< size of its mature shape, metres
-    Model now;                   ///< blend of the stages at this age
+    Substrate wood = Substrate::beech;  ///< on which it would grow as a bracket
+    Model now;                          ///< blend of the stages at this age
 
     [[nodiscard]] const Model& first() const { return *stages.front(); }
     [[nodiscard]] bool is_branched() const {

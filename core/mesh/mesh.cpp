@@ -33,4 +33,8 @@ Bounds bounds(const Mesh& mesh) {
     return box;
 }
 
+Bounds united(const Bounds& one, const Bounds& other) {
+    return {glm::min(one.min, other.min), glm::max(one.max, other.max)};
+}
+
 }  // namespace sporeprint

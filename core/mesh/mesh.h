@@ -54,4 +54,7 @@ struct Bounds {
 /// pre  at least one vertex
 [[nodiscard]] Bounds bounds(const Mesh& mesh);
 
+/// Returns the bounding box of two.
+[[nodiscard]] Bounds united(const Bounds& one, const Bounds& other);
+
 }  // namespace sporeprint

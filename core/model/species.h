@@ -61,6 +61,11 @@ constexpr const char* name(GrowthForm form) {
     return nullptr;
 }
 
+/// Returns true for forms that grow forwards from a wall.
+constexpr bool is_lateral(GrowthForm form) {
+    return form == GrowthForm::bracket || form == GrowthForm::shelving_agaric;
+}
+
 /// Recorded facts of a species. Sizes are those of maturity (age 0.6).
 struct Facts {
     Text<64> scientific_name;

@@ -62,41 +62,32 @@ class Bumps {
     std::array<Wave, 4> waves_ = {{{2.0, 0.4}, {3.0, 0.3}, {5.0, 0.2}, {8.0, 0.1}}};
 };
 
-/// Makes the mesh of a piece.
+/// What whole and split pieces have in common: rows of vertices along the grain.
 class WoodBuilder {
   public:
     WoodBuilder(const WoodPiece& piece, int lod, bool textured)
         : piece_(piece),
           bumps_(piece),
-          columns_(sides[static_cast<std::size_t>(lod)]),
+          sides_(sides[static_cast<std::size_t>(lod)]),
           image_(wood_girths * 2.0 * pi * piece.radius),
           step_(image_ / rows_of_image[static_cast<std::size_t>(lod)]),
           textured_(textured) {}
 
+  protected:
     /// Number of rows of quads along the piece.
     [[nodiscard]] std::uint32_t rows() const {
         return std::max(
             1U, static_cast<std::uint32_t>(std::ceil((piece_.top - piece_.bottom) / step_ - 1e-6)));
     }
 
-    [[nodiscard]] MeshCount count() const {
-        // Two strips of bark; an end has two rings, and as many vertices in the middle as sides.
-        return {(columns_ + std::uint64_t{2}) * (rows() + 1) +
-                    2 * (2 * (columns_ + std::uint64_t{1}) + columns_),
-                std::uint64_t{2} * columns_ * rows() + std::uint64_t{6} * columns_};
+    /// Distance of a row of vertices from the top, metres.
+    [[nodiscard]] double down(std::uint32_t row) const {
+        return row == rows() ? piece_.top - piece_.bottom : static_cast<double>(row) * step_;
     }
 
-    Mesh take() && {
-        add_bark();
-        add_end(piece_.top, 1.0F);
-        add_end(piece_.bottom, -1.0F);
+    [[nodiscard]] Mesh finished() {
         if (textured_) add_tangents(mesh_);
         return std::move(mesh_);
-    }
-
-  private:
-    [[nodiscard]] double angle_of(std::uint32_t column) const {
-        return 2.0 * pi * (static_cast<double>(column % columns_) / columns_ - 0.5);
     }
 
     void add_vertex(const glm::dvec3& position, const glm::dvec3& normal, double u, double v) {
@@ -109,105 +100,232 @@ class WoodBuilder {
         return {distance * at.sine, height, distance * at.cosine - piece_.radius};
     }
 
-    void add_bark() {
-        const std::uint32_t last = rows(), half = columns_ / 2;
-        for (std::uint32_t row = 0; row <= last; ++row) {
-            const double down =
-                row == last ? piece_.top - piece_.bottom : static_cast<double>(row) * step_;
-            const double height = piece_.top - down;
-            const double v = wood_bark_end * mirrored_place(down / image_);
-            for (const bool is_front : {true, false})
-                for (std::uint32_t column = 0; column <= half; ++column)
-                    add_bark_vertex(is_front, column, height, v);
-        }
-        const std::uint32_t round = columns_ + 2;
-        for (std::uint32_t row = 0; row < last; ++row)
-            for (std::uint32_t column = 0; column <= columns_; ++column) {
-                if (column == half) continue;  // between the strips
-                const std::uint32_t above = row * round + column, below = above + round;
-                add_triangle(above, below, below + 1);
-                add_triangle(above, below + 1, above + 1);
-            }
+    [[nodiscard]] glm::dvec3 bark_at(double angle, double height) const {
+        return place(bumps_.at(angle, height).length, sine_cosine(angle), height);
     }
 
-    /// is_front  of the strip that faces +z, where the image is; behind it is mirrored, so that it
-    ///           is continuous on both sides
-    void add_bark_vertex(bool is_front, std::uint32_t column, double height, double v) {
-        const std::uint32_t half = columns_ / 2;
-        const double angle = angle_of(columns_ / 4 + (is_front ? 0 : half) + column);
+    /// u  of the image of bark
+    void add_bark_vertex(double angle, std::uint32_t row, double u) {
+        const double height = piece_.top - down(row);
         const SineCosine at = sine_cosine(angle);
         const Distance from = bumps_.at(angle, height);
         const glm::dvec3 outwards(at.sine, 0.0, at.cosine), aside(at.cosine, 0.0, -at.sine);
         const glm::dvec3 normal =
             outwards - from.by_angle / from.length * aside - glm::dvec3(0.0, from.by_height, 0.0);
-        const double along = static_cast<double>(column) / half;
-        add_vertex(place(from.length, at, height), glm::normalize(normal),
-                   is_front ? along : 1.0 - along, v);
+        add_vertex(place(from.length, at, height), glm::normalize(normal), u,
+                   wood_bark_end * mirrored_place(down(row) / image_));
     }
 
-    /// up  1 for the upper end, -1 for the lower one
-    void add_end(double height, float up) {
-        const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
-        const glm::dvec3 normal(0.0, static_cast<double>(up), 0.0);
-        const auto v_of = [](double share) {
-            return wood_end_middle + share * (wood_end_rim - wood_end_middle);
-        };
-        const std::uint32_t round = columns_ + 1;
-        const auto u_of = [&](double column) { return column / columns_; };
-        for (const double share : {1.0, inner_ring})
-            for (std::uint32_t column = 0; column < round; ++column) {
-                const double angle = angle_of(column);
-                add_vertex(
-                    place(share * bumps_.at(angle, height).length, sine_cosine(angle), height),
-                    normal, u_of(column), v_of(share));
-            }
-        for (std::uint32_t column = 0; column < columns_; ++column)
-            add_vertex({0.0, height, -piece_.radius}, normal, u_of(column + 0.5), v_of(0.0));
-        const std::uint32_t inner = first + round, middle = inner + round;
-        const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            if (up > 0.0F)
-                add_triangle(a, b, c);
-            else
-                add_triangle(a, c, b);
-        };
-        for (std::uint32_t column = 0; column < columns_; ++column) {
-            const std::uint32_t next = column + 1;
-            add(first + column, first + next, inner + next);
-            add(first + column, inner + next, inner + column);
-            add(inner + column, inner + next, middle + column);
-        }
+    /// Returns the place across growth rings in the image.
+    ///
+    /// share  distance from the pith, in radii
+    [[nodiscard]] static double rings_at(double share) {
+        return wood_end_middle + share * (wood_end_rim - wood_end_middle);
     }
 
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
     }
 
+    /// is_up  of a face that is seen from above: a, b, c are counter-clockwise from there
+    void add_end_triangle(bool is_up, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (is_up)
+            add_triangle(a, b, c);
+        else
+            add_triangle(a, c, b);
+    }
+
+    /// Adds the quads between consecutive rows of `columns` + 1 vertices.
+    ///
+    /// first   vertex of the first row
+    /// stride  vertices from a row to the next
+    void add_quads(std::uint32_t first, std::uint32_t columns, std::uint32_t stride) {
+        for (std::uint32_t row = 0; row < rows(); ++row)
+            for (std::uint32_t column = 0; column < columns; ++column) {
+                const std::uint32_t above = first + row * stride + column, below = above + stride;
+                add_triangle(above, below, below + 1);
+                add_triangle(above, below + 1, above + 1);
+            }
+    }
+
+    [[nodiscard]] std::uint32_t next_vertex() const {
+        return static_cast<std::uint32_t>(mesh_.positions.size());
+    }
+
     const WoodPiece& piece_;
     Bumps bumps_;
-    std::uint32_t columns_;
+    std::uint32_t sides_;  ///< of a whole piece
     double image_, step_;  ///< length of an image and of a row, metres
     bool textured_;
     Mesh mesh_;
 };
 
-WoodBuilder builder_of(const WoodPiece& piece, int lod, bool textured) {
+/// Makes the mesh of a whole piece.
+class WholePiece : WoodBuilder {
+  public:
+    using WoodBuilder::WoodBuilder;
+
+    [[nodiscard]] MeshCount count() const {
+        // Two strips of bark; an end has two rings, and as many vertices in the middle as sides.
+        return {(sides_ + std::uint64_t{2}) * (rows() + 1) +
+                    2 * (2 * (sides_ + std::uint64_t{1}) + sides_),
+                std::uint64_t{2} * sides_ * rows() + std::uint64_t{6} * sides_};
+    }
+
+    Mesh take() && {
+        add_bark();
+        for (const bool is_up : {true, false}) add_end(is_up);
+        return finished();
+    }
+
+  private:
+    [[nodiscard]] double angle_of(std::uint32_t column) const {
+        return 2.0 * pi * (static_cast<double>(column % sides_) / sides_ - 0.5);
+    }
+
+    void add_bark() {
+        const std::uint32_t half = sides_ / 2;
+        for (std::uint32_t row = 0; row <= rows(); ++row)
+            for (const bool is_front : {true, false})
+                for (std::uint32_t column = 0; column <= half; ++column) {
+                    // The image is in front; behind it is mirrored, so that it is continuous on both
+                    // sides.
+                    const double along = static_cast<double>(column) / half;
+                    add_bark_vertex(angle_of(sides_ / 4 + (is_front ? 0 : half) + column), row,
+                                    is_front ? along : 1.0 - along);
+                }
+        for (const std::uint32_t strip : {0U, half + 1}) add_quads(strip, half, sides_ + 2);
+    }
+
+    void add_end(bool is_up) {
+        const std::uint32_t first = next_vertex(), round = sides_ + 1;
+        const double height = is_up ? piece_.top : piece_.bottom;
+        const glm::dvec3 normal(0.0, is_up ? 1.0 : -1.0, 0.0);
+        for (const double share : {1.0, inner_ring})
+            for (std::uint32_t column = 0; column < round; ++column) {
+                const double angle = angle_of(column);
+                add_vertex(
+                    place(share * bumps_.at(angle, height).length, sine_cosine(angle), height),
+                    normal, static_cast<double>(column) / sides_, rings_at(share));
+            }
+        for (std::uint32_t column = 0; column < sides_; ++column)
+            add_vertex({0.0, height, -piece_.radius}, normal, (column + 0.5) / sides_,
+                       rings_at(0.0));
+        const std::uint32_t inner = first + round, middle = inner + round;
+        for (std::uint32_t column = 0; column < sides_; ++column) {
+            const std::uint32_t next = column + 1;
+            add_end_triangle(is_up, first + column, first + next, inner + next);
+            add_end_triangle(is_up, first + column, inner + next, inner + column);
+            add_end_triangle(is_up, inner + column, inner + next, middle + column);
+        }
+    }
+};
+
+double angle_of_cosine(double cosine) {
+    return arc_tangent(std::sqrt(1.0 - cosine * cosine), cosine);
+}
+
+/// Makes the mesh of a split piece. The split face lies between the two edges of the bark; its
+/// columns are on the same rays from the pith as those of the bark.
+class SplitPiece : WoodBuilder {
+  public:
+    SplitPiece(const WoodPiece& piece, int lod, bool textured)
+        : WoodBuilder(piece, lod, textured),
+          columns_(sides_ / 2),
+          edge_(angle_of_cosine(1.0 - piece.split / piece.radius)) {}
+
+    [[nodiscard]] MeshCount count() const {
+        const std::uint64_t columns = columns_;
+        return {2 * (columns + 1) * (rows() + 1) + 2 * (2 * columns),
+                4 * columns * rows() + 2 * (2 * columns - 2)};
+    }
+
+    Mesh take() && {
+        const std::uint32_t round = columns_ + 1;
+        for (std::uint32_t row = 0; row <= rows(); ++row)
+            for (std::uint32_t column = 0; column < round; ++column)
+                add_bark_vertex(angle_of(column), row, 0.5 + angle_of(column) / pi);
+        add_quads(0, columns_, round);
+        const std::uint32_t face = next_vertex();
+        for (std::uint32_t row = 0; row <= rows(); ++row)
+            for (std::uint32_t column = 0; column < round; ++column)
+                add_face_vertex(columns_ - column, piece_.top - down(row), {0.0, 0.0, -1.0},
+                                grain_from + grain_width * mirrored_place(down(row) / image_));
+        add_quads(face, columns_, round);
+        for (const bool is_up : {true, false}) add_end(is_up);
+        return finished();
+    }
+
+  private:
+    /// What of the image of end grain is stretched along the face, in turns.
+    static constexpr double grain_from = 0.3, grain_width = 0.02;
+
+    [[nodiscard]] double angle_of(std::uint32_t column) const {
+        return edge_ * (2.0 * static_cast<double>(column) / columns_ - 1.0);
+    }
+
+    /// Adds the point where the ray of a column meets the split face.
+    void add_face_vertex(std::uint32_t column, double height, const glm::dvec3& normal, double u) {
+        const glm::dvec3 pith(0.0, height, -piece_.radius), left = bark_at(-edge_, height) - pith,
+                                                            right = bark_at(edge_, height) - pith;
+        const SineCosine at = sine_cosine(angle_of(column));
+        // Of the crossing of the ray with the line from left to right.
+        const double distance = (left.z * right.x - left.x * right.z) /
+                                ((right.x - left.x) * at.cosine - (right.z - left.z) * at.sine);
+        const glm::dvec3 position = column == 0          ? pith + left
+                                    : column == columns_ ? pith + right
+                                                         : place(distance, at, height);
+        add_vertex(position, normal, u, rings_at(std::min(distance / piece_.radius, 1.0)));
+    }
+
+    void add_end(bool is_up) {
+        const std::uint32_t rim = next_vertex(), face = rim + columns_ + 1;
+        const double height = is_up ? piece_.top : piece_.bottom;
+        const glm::dvec3 normal(0.0, is_up ? 1.0 : -1.0, 0.0);
+        const auto u_of = [&](std::uint32_t column) { return 0.5 + 0.5 * angle_of(column) / pi; };
+        for (std::uint32_t column = 0; column <= columns_; ++column)
+            add_vertex(bark_at(angle_of(column), height), normal, u_of(column), rings_at(1.0));
+        for (std::uint32_t column = 1; column < columns_; ++column)
+            add_face_vertex(column, height, normal, u_of(column));
+        // The rim and the face meet in the first and the last column.
+        const auto on_face = [&](std::uint32_t column) { return face + column - 1; };
+        add_end_triangle(is_up, rim, rim + 1, on_face(1));
+        for (std::uint32_t column = 1; column + 1 < columns_; ++column) {
+            add_end_triangle(is_up, rim + column, rim + column + 1, on_face(column + 1));
+            add_end_triangle(is_up, rim + column, on_face(column + 1), on_face(column));
+        }
+        add_end_triangle(is_up, rim + columns_ - 1, rim + columns_, on_face(columns_ - 1));
+    }
+
+    std::uint32_t columns_;  ///< of bark
+    double edge_;            ///< angle of the right edge of the bark
+};
+
+/// Calls use(builder) with that of a piece.
+template <class Use>
+auto with_builder(const WoodPiece& piece, int lod, bool textured, const Use& use) {
     if (!(piece.radius > 0.0))
         throw InvalidInput("/radius", number_text(piece.radius) + " is not positive");
     if (!(piece.top > piece.bottom))
         throw InvalidInput("/top", number_text(piece.top) + " is not above the bottom, " +
                                        number_text(piece.bottom));
-    return {piece, lod, textured};
+    if (!(piece.split >= 0.0 && piece.split < piece.radius))
+        throw InvalidInput("/split", number_text(piece.split) +
+                                         " is not between 0 and the radius, " +
+                                         number_text(piece.radius));
+    return piece.split > 0.0 ? use(SplitPiece(piece, lod, textured))
+                             : use(WholePiece(piece, lod, textured));
 }
 
 }  // namespace
 
 MeshCount wood_count(const WoodPiece& piece, int lod) {
-    const WoodBuilder builder = builder_of(piece, lod, false);
-    return builder.count();
+    return with_builder(piece, lod, false, [](const auto& builder) { return builder.count(); });
 }
 
 Mesh wood_mesh(const WoodPiece& piece, int lod, bool textured) {
-    return builder_of(piece, lod, textured).take();
+    return with_builder(piece, lod, textured,
+                        [](auto&& builder) { return std::move(builder).take(); });
 }
 
 }  // namespace sporeprint

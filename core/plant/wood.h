@@ -1,7 +1,6 @@
-// A piece of a trunk or branch with sawn ends, on which brackets grow: its kinds and its shape.
+// A piece of a trunk or branch with sawn ends, on which brackets grow.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "core/mesh/detail.h"
@@ -9,35 +8,14 @@
 
 namespace sporeprint {
 
-/// What fungi that grow from a wall stand on: nothing, or wood with the bark of a tree.
-enum class Substrate { none, beech, birch, oak, poplar, spruce };
-/// All that are wood.
-inline constexpr std::array all_woods = {Substrate::beech, Substrate::birch, Substrate::oak,
-                                         Substrate::poplar, Substrate::spruce};
-
-constexpr const char* name(Substrate substrate) {
-    switch (substrate) {
-        case Substrate::none:
-            return "none";
-        case Substrate::beech:
-            return "beech";
-        case Substrate::birch:
-            return "birch";
-        case Substrate::oak:
-            return "oak";
-        case Substrate::poplar:
-            return "poplar";
-        case Substrate::spruce:
-            return "spruce";
-    }
-    return nullptr;
-}
-
-/// A vertical piece whose bark touches the origin from behind (z < 0).
+/// A vertical piece, whole or split, whose bark touches the origin from behind (z < 0).
 struct WoodPiece {
     double radius = 0.1;              ///< least distance of the bark from the axis, metres
     double bottom = -0.2, top = 0.2;  ///< heights of its ends, metres
     std::uint32_t seed = 1;           ///< of what makes it uneven
+    /// How far behind the origin it is split along the grain, metres, less than the radius; 0: it is
+    /// whole.
+    double split = 0.0;
 };
 
 /// The greatest distance of the bark from the axis, in radii.
@@ -47,12 +25,13 @@ inline constexpr double uneven_radius = 1.1;
 [[nodiscard]] MeshCount wood_count(const WoodPiece& piece, int lod);
 
 /// Returns the surface: bark, whose radius varies between 1 and uneven_radius of the radius
-/// of the piece, and two flat ends.
+/// of the piece, two flat ends and, of a split piece, a face with the lines of its growth rings.
 ///
-/// lod       0..3: 48, 28, 16 or 12 sides
+/// lod       0..3: 48, 28, 16 or 12 sides; of a split piece half as many on its bark
 /// textured  makes texture coordinates for wood_images(), and tangents
 /// returns   a mesh that is closed once equal positions are welded
-/// throws    InvalidInput for a radius that is not positive, or a top that is not above the bottom
+/// throws    InvalidInput for a radius that is not positive, a top that is not above the bottom,
+///           or a split that is not between 0 and the radius
 [[nodiscard]] Mesh wood_mesh(const WoodPiece& piece, int lod, bool textured);
 
 }  // namespace sporeprint

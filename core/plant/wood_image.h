@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/images.h"
+#include "core/model/substrate.h"
 #include "core/params/shared_params.h"
 #include "core/plant/wood.h"
 

@@ -57,7 +57,7 @@ inline std::vector<std::string> branched_ids() {
     return ids;
 }
 
-/// Returns a request for one species, without images.
+/// Returns a request for one species, without images and without wood behind brackets.
 inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
                              int lod = 0) {
     MushroomSpec order;
@@ -66,6 +66,13 @@ inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint3
     order.params.seed = seed;
     order.params.lod = lod;
     order.params.textures = Textures::none;
+    order.params.substrate = Substrate::none;
+    return order;
+}
+
+/// Returns the same request with the wood of the species behind brackets, which are bent round it.
+inline MushroomSpec on_wood(MushroomSpec order) {
+    order.params.substrate.reset();
     return order;
 }
 

@@ -8,7 +8,7 @@ import {
     type Box3,
     type Object3D,
 } from "three";
-import { meshesOf, shownPart, stemsOf } from "./model";
+import { meshesOf, shownPart, stemsOf, woodOf } from "./model";
 
 export const closeUpNames = ["margin", "underside", "base"] as const;
 export type CloseUpName = (typeof closeUpNames)[number];
@@ -41,6 +41,8 @@ const baseHeight = 0.3;
  *  base is looked at from an angle to the side that it grows to, radians. */
 const sidewaysFrom = 0.25;
 const sidewaysTurn = 0.7;
+
+const forwards = new Vector3(0, 0, 1);
 
 /** Forms of mushrooms with a cap: it has a margin, and an underside that can be seen. */
 const capped = ["agaric", "bolete", "chanterelle", "tooth", "bracket", "shelving_agaric"];
@@ -77,12 +79,12 @@ interface Individual {
 
 function individualsOf(model: Object3D): Individual[] {
     const part = shownPart(model);
-    const stems = stemsOf(model);
+    const others = [stemsOf(model), woodOf(model)];
     const individuals: Individual[] = [];
     part.updateMatrixWorld(true);
     for (const mesh of meshesOf(part)) {
         let above: Object3D | null = mesh;
-        while (above && above !== stems) above = above.parent;
+        while (above && !others.includes(above)) above = above.parent;
         if (above) continue;
         if (!(mesh instanceof InstancedMesh)) {
             individuals.push({ mesh, instance: undefined, matrix: mesh.matrixWorld });
@@ -173,7 +175,10 @@ function baseOf(
     const middle = individual ? middleOf(individual) : bounds.getCenter(new Vector3());
     if (stemsOf(model)) target.y = 0;
     const away = new Vector3(middle.x - target.x, 0, middle.z - target.z);
-    if (away.length() > sidewaysFrom * frame) {
+    // A lone bracket grows forwards from its wood, whose middle is behind it.
+    const isBracket = !individual && woodOf(model) !== undefined;
+    if (isBracket) away.copy(forwards);
+    if (isBracket || away.length() > sidewaysFrom * frame) {
         // The cap hides the base of what grows sideways, but not from obliquely below.
         const seen = away.normalize().applyAxisAngle(new Vector3(0, 1, 0), sidewaysTurn);
         return { target, direction: seen.setY(-0.55).normalize(), frame };

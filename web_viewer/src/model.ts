@@ -157,10 +157,29 @@ export function stemsOf(model: Object3D): Object3D | undefined {
     return stems;
 }
 
+/** Returns the node of the wood that brackets grow on at the level of detail that is shown,
+ *  undefined if there is none. */
+export function woodOf(model: Object3D): Object3D | undefined {
+    let wood: Object3D | undefined;
+    shownPart(model).traverse((node) => {
+        if (node.name.endsWith("_wood")) wood ??= node;
+    });
+    return wood;
+}
+
 /** Returns the bounds of the transformed vertices, metres. */
 export function boundsOf(model: Object3D): Box3 {
     model.updateMatrixWorld(true);
     return new Box3().setFromObject(model, true);
+}
+
+/** Part of its height that a model which stands on the ground has below it at most. */
+const mostBelow = 0.3;
+
+/** Returns true for a model that begins far below its origin: a bracket, whose origin is where it
+ *  grows out of the wood. */
+export function hangsOnWall({ min, max }: Box3): boolean {
+    return min.y < -mostBelow * (max.y - min.y);
 }
 
 export function setWireframe(model: Object3D, shown: boolean): void {

@@ -12,7 +12,7 @@ import { fittingDistance, standing, type Directions, type Margin, type ViewName 
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
 import { litScene, type SceneLight } from "./lit_scene";
-import { boundsOf } from "./model";
+import { boundsOf, hangsOnWall } from "./model";
 
 export interface RenderOptions {
     view: ViewName;
@@ -66,8 +66,9 @@ export class OffscreenRenderer {
         this.camera.updateProjectionMatrix();
         this.light.aim(ball);
         this.scene.add(model);
-        this.ground.visible = this.contact.visible = onGround;
-        if (onGround) {
+        const stands = onGround && !hangsOnWall(bounds);
+        this.ground.visible = this.contact.visible = stands;
+        if (stands) {
             this.ground.fit(ball.radius, 1);
             const { min, max } = bounds;
             const half =

@@ -22,6 +22,7 @@ import { Wind } from "../clients/three/wind";
 import {
     boundsOf,
     disposeModel,
+    hangsOnWall,
     modelLevels,
     modelVariants,
     modelWind,
@@ -276,7 +277,9 @@ export class Stage {
         }
         const old = this.model;
         this.model = model;
-        if (this.style.liesOnGround) model.position.y = -boundsOf(model).min.y;
+        const bounds = boundsOf(model);
+        // What hangs on a wall is shown with its wood standing on the ground.
+        if (this.style.liesOnGround || hangsOnWall(bounds)) model.position.y = -bounds.min.y;
         this.bounds = boundsOf(model);
         this.applyLevel();
         this.applySolids();

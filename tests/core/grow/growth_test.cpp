@@ -177,7 +177,7 @@ TEST(Clip, FindsTheCorrespondenceOfItsSpeciesOnce) {
         return make();
     };
     const MushroomSpec spec = growing(mix_of({{"amanita_muscaria", 400}, {"boletus_edulis", 600}}));
-    (void)growth_clip(spec, atlas(), mesh_of(spec), execution);
+    (void)growth_clip(spec, resolve(spec, atlas()), atlas(), mesh_of(spec), execution);
     EXPECT_EQ(lookups, 1) << "all ages are weights of one set";
 }
 
@@ -288,7 +288,8 @@ TEST(Clip, StopsWhenCancelled) {
     const MushroomSpec spec = growing(order_of("boletus_edulis", 0.6, 1, 1));
     const Mesh mesh = mesh_of(spec);
     source.request_stop();
-    EXPECT_THROW((void)growth_clip(spec, atlas(), mesh, execution), Cancelled);
+    EXPECT_THROW((void)growth_clip(spec, resolve(spec, atlas()), atlas(), mesh, execution),
+                 Cancelled);
 }
 
 }  // namespace

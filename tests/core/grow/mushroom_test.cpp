@@ -37,7 +37,7 @@ TEST_P(EverySpecies, GrowsToValidMeshesAtEveryAgeLevelOfDetailAndSeed) {
             for (const std::uint32_t seed : std::span(seeds).first(effort(3, 1, 3))) {
                 SCOPED_TRACE("age " + std::to_string(age) + ", lod " + std::to_string(lod) +
                              ", seed " + std::to_string(seed));
-                MushroomSpec spec = textured(order_of(GetParam(), age, seed, lod));
+                MushroomSpec spec = on_wood(textured(order_of(GetParam(), age, seed, lod)));
                 spec.params.variation = 1.0;
                 const Mesh mesh = mesh_of(spec);
                 expect_valid(mesh);
@@ -47,7 +47,7 @@ TEST_P(EverySpecies, GrowsToValidMeshesAtEveryAgeLevelOfDetailAndSeed) {
 }
 
 TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
-    MushroomSpec spec = textured(order_of(GetParam(), 0.7, 3, 1));
+    MushroomSpec spec = on_wood(textured(order_of(GetParam(), 0.7, 3, 1)));
     std::set<std::string> refused;
     int grown = 0;
     corners(spec.params, [&](const std::string& path) {
@@ -94,6 +94,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
                                          "/frames",
                                          "/targets",
                                          "/impostor",
+                                         "/substrate",
                                          "/triangles"};
     for (const std::string& path : refused) EXPECT_TRUE(known.contains(path)) << path;
 }
@@ -143,6 +144,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
             spec.params.ornaments = {};
             spec.params.deformation.zone_from.reset();
             spec.params.deformation.zone_to.reset();
+            spec.params.substrate.reset();
         }
         spec.params.textures = Textures::linked;
         // Nearly all numbers of triangles would select the finest level.
@@ -162,7 +164,8 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
                 RC_ASSERT(problem.path.starts_with("/hymenium/") ||
                           problem.path.starts_with("/ornaments/") ||
                           problem.path.starts_with("/weathering/") ||
-                          problem.path.starts_with("/deformation/"));
+                          problem.path.starts_with("/deformation/") ||
+                          problem.path == "/substrate");
         }
     }));
     EXPECT_GT(7 * grown, drawn);

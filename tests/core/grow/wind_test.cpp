@@ -66,7 +66,7 @@ TEST(Wind, AMushroomBendsFromTheGroundToItsTop) {
         std::sort(by_height.begin(), by_height.end());
         for (std::size_t i = 1; i < by_height.size(); ++i)
             EXPECT_LE(by_height[i - 1].second, by_height[i].second);
-        if (grows_from_wall(individual.parts.front().model)) {
+        if (individual.grows_from_wall()) {
             EXPECT_EQ(most, 0.0F);
             EXPECT_EQ(displacement_of_top(stem), 0.0);
         } else {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/individual/proportion.h"
@@ -288,6 +289,34 @@ TEST(Resolve, ImpossibleOverridesAreRefusedAndNamed) {
     EXPECT_TRUE(refused("cantharellus_cibarius", &P::hymenium, &H::forking, 0.7).empty());
 }
 
+TEST(Resolve, BracketsStandOnTheWoodOfTheirHeaviestSpecies) {
+    const auto resolved_on = [](const Mix& mix, std::optional<Substrate> wanted = {}) {
+        MushroomSpec spec = mix_of(mix);
+        spec.params.substrate = wanted;
+        return resolved(spec);
+    };
+    const auto wood = [&](const Mix& mix) { return resolved_on(mix).effective.substrate; };
+    EXPECT_EQ(wood({{"fomes_fomentarius", 1000}}), Substrate::birch);
+    EXPECT_EQ(wood({{"fomes_fomentarius", 600}, {"trametes_versicolor", 400}}), Substrate::birch);
+    EXPECT_EQ(wood({{"fomes_fomentarius", 400}, {"trametes_versicolor", 600}}), Substrate::beech);
+    EXPECT_EQ(wood({{"amanita_muscaria", 1000}}), std::nullopt);
+    EXPECT_EQ(wood({{"amanita_muscaria", 900}, {"trametes_versicolor", 100}}), std::nullopt)
+        << "hardly a bracket";
+    const auto bent = [&](const Mix& mix, std::optional<Substrate> wanted = {}) {
+        const Individual individual = resolved_on(mix, wanted);
+        return individual.trunk_radius > 0.0 ? individual.bending_radius() / individual.trunk_radius
+                                             : 0.0;
+    };
+    EXPECT_EQ(bent({{"trametes_versicolor", 1000}}), 1.0);
+    EXPECT_EQ(bent({{"trametes_versicolor", 1000}}, Substrate::none), 0.0) << "a flat wall";
+    EXPECT_GT(bent({{"amanita_muscaria", 500}, {"trametes_versicolor", 500}}), 1.0)
+        << "what is less of a bracket follows the trunk less";
+    MushroomSpec grounded = order_of("amanita_muscaria");
+    grounded.params.substrate = Substrate::oak;
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(grounded); }), "/substrate",
+                      "Amanita muscaria stands on the ground"));
+}
+
 TEST(Resolve, AllImpossibleOverridesAreReportedAtOnce) {
     MushroomSpec spec = order_of("boletus_edulis");
     spec.params.hymenium.blades = 60;
@@ -372,7 +401,8 @@ TEST(Resolve, GrantedOverridesAreExact) {
                           // A zero override of something that the species lacks is the same as
                           // none.
                           if (requested && effective && *requested != *effective) RC_FAIL(path);
-                          if (requested && !effective && *requested != 0)
+                          if (requested && !effective &&
+                              *requested != std::remove_cvref_t<decltype(*requested)>{})
                               RC_FAIL(path + " is lost");
                       });
             RC_ASSERT(individual.effective.age == spec.params.age);
@@ -384,7 +414,7 @@ TEST(Resolve, GrantedOverridesAreExact) {
                           problem.path.starts_with("/ornaments/") ||
                           problem.path.starts_with("/weathering/") ||
                           problem.path == "/deformation/irregularity" ||
-                          problem.path == "/deformation/zone_to");
+                          problem.path == "/deformation/zone_to" || problem.path == "/substrate");
         }
     }));
     // Most random requests ask for something that a species cannot have.

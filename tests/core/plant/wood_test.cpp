@@ -36,6 +36,43 @@ TEST(Wood, IsAClosedPieceOfItsRadiusAndLength) {
                 }
 }
 
+TEST(Wood, SplitIsTheClosedSegmentInFrontOfItsFace) {
+    for (const double radius : {0.01, 0.2, 3.0})
+        for (const double share : {0.1, 0.5, 0.75, 0.99})
+            for (int lod = 0; lod < 4; ++lod) {
+                const double length = 2.5 * radius;
+                const WoodPiece piece{radius, -0.5 * length, 0.5 * length, 7, share * radius};
+                const Mesh mesh = wood_mesh(piece, lod, true);
+                EXPECT_EQ(defects(mesh), std::vector<std::string>{}) << share << " at " << lod;
+                const MeshCount count = wood_count(piece, lod);
+                EXPECT_EQ(mesh.positions.size(), count.vertices);
+                EXPECT_EQ(mesh.triangles(), count.triangles);
+                // The area of a segment of a circle, without and with bumps.
+                const auto segment = [&](double circle) {
+                    const double cosine = (1.0 - share) * radius / circle;
+                    const double angle = std::acos(cosine);
+                    return circle * circle * (angle - cosine * std::sin(angle));
+                };
+                EXPECT_GT(volume(mesh), 0.9 * segment(radius) * length);
+                EXPECT_LT(volume(mesh), segment(uneven_radius * radius) * length);
+            }
+}
+
+TEST(Wood, SplitFaceLooksBackAndShowsGrowthRings) {
+    const Mesh mesh = wood_mesh({0.1, -0.2, 0.2, 3, 0.07}, 0, true);
+    int faces = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (mesh.normals[i].z > -0.99F) continue;
+        ++faces;
+        const double x = static_cast<double>(mesh.positions[i].x),
+                     v = static_cast<double>(mesh.texture_coordinates[i].y);
+        // The image of end grain, at the distance from the pith.
+        const double from_pith = std::min(std::sqrt(x * x + 0.03 * 0.03) / 0.1, 1.0);
+        EXPECT_NEAR(v, wood_end_middle + from_pith * (wood_end_rim - wood_end_middle), 0.02);
+    }
+    EXPECT_GT(faces, 50);
+}
+
 TEST(Wood, ReachesTheOriginFromBehind) {
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
         const WoodPiece piece{0.1, -0.3, 0.4, seed};
@@ -85,6 +122,11 @@ TEST(Wood, RefusesPiecesWithoutSize) {
                           }),
                           "/radius", "positive"));
     EXPECT_TRUE(names(refusal([] { (void)wood_count({0.1, 1.0, 1.0, 1}, 0); }), "/top", "above"));
+    for (const double split : {-0.01, 0.1, 0.2, nothing})
+        EXPECT_TRUE(names(refusal([&] {
+                              (void)wood_mesh({0.1, 0.0, 1.0, 1, split}, 0, true);
+                          }),
+                          "/split", "between 0 and the radius"));
 }
 
 }  // namespace

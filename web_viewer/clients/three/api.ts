@@ -186,6 +186,12 @@ export interface components {
                      */
                     base?: "natural" | "clean";
                     /**
+                     * substrate
+                     * @description What a bracket grows on: a piece of wood with the bark of this tree, by default of one that the species grows on, or nothing.
+                     * @enum {string}
+                     */
+                    substrate?: "none" | "beech" | "birch" | "oak" | "poplar" | "spruce";
+                    /**
                      * profile
                      * @description The engine that reads the file: sets the defaults of lod and of the options below, each of which may still be given; collision and wind only where other options allow them. core is plain glTF, which every loader reads.
                      * @default core
