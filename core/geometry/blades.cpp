@@ -364,12 +364,12 @@ std::vector<std::array<std::uint32_t, 3>> blade_faces(std::uint32_t first, std::
     for (std::uint32_t j = 0; j <= last; ++j) {
         const auto here = first + static_cast<std::uint32_t>(row_corners) * j;
         const auto next = here + static_cast<std::uint32_t>(row_corners);
-        for (const std::uint32_t k : {0U, 1U}) {
+        for (const std::uint32_t k : {3U, 4U}) {
             faces.push_back({here + k, next + k, here + k + 1});
             faces.push_back({here + k + 1, next + k, next + k + 1});
         }
         // The diagonals of both faces lie opposite each other, so that a bent blade stays thick.
-        for (const std::uint32_t k : {3U, 4U}) {
+        for (const std::uint32_t k : {0U, 1U}) {
             faces.push_back({here + k, next + k, next + k + 1});
             faces.push_back({here + k, next + k + 1, here + k + 1});
         }

@@ -102,10 +102,15 @@ SolidGrid sac_grid(const Individual& individual, const Detail& detail) {
     return shell_grid(individual.has_sac, detail.sac_rings, detail);
 }
 
+bool is_tuft(const PatchLayer& layer) {
+    return layer.purpose == purposes::scales && layer.style.fray > 0.0;
+}
+
 /// Returns the number of pieces of a layer, absent ones included, so that no amount changes the
-/// number of vertices.
+/// number of vertices. Tufts of hairs are only painted.
 int piece_count(const PatchLayer& layer, const Detail& detail) {
-    if (detail.patch_sides == 0 || std::abs(layer.style.to - layer.style.from) < least_window)
+    if (detail.patch_sides == 0 || is_tuft(layer) ||
+        std::abs(layer.style.to - layer.style.from) < least_window)
         return 0;
     return static_cast<int>(std::ceil(detail.patches * layer.style.count));
 }
@@ -333,7 +338,7 @@ std::vector<Patch> built_patches(const PatchLayer& layer, const OrnamentContext&
 
 /// Appends the pieces of one layer.
 void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& context) {
-    if (context.detail.patch_sides == 0) return;
+    if (piece_count(layer, context.detail) == 0) return;
     const LayerPlace place = place_of(layer, context);
     const double length = context.outline.cap.length();
     Solid solid{patch_grid(context.detail), {}, {}};
@@ -388,25 +393,67 @@ double conforming(double size, double radius) {
     return 1.0 - smooth_step(0.0, spanning_size * radius, size);
 }
 
-/// Depth of the tears of an edge at an angle, 0..1: `count` tears between lobes, and a finer
-/// raggedness.
-class Rents {
+/// An angle round the stem that runs now faster, now slower, so that waves of it are neither equally
+/// wide nor equally far apart.
+class UnevenAngle {
   public:
-    Rents(Random& random, int least, int most)
-        : count_(least +
-                 static_cast<int>(random.bits() % static_cast<std::uint32_t>(most - least + 1))) {
+    explicit UnevenAngle(Random& random) {
         for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
     }
     [[nodiscard]] double at(double angle) const {
-        const double rent = 0.5 + 0.5 * sine(count_ * angle + phases_[0]);
-        const double uneven = 0.5 + 0.5 * sine(angle + phases_[1]);
-        const double fine = 0.5 + 0.5 * sine((2 * count_ + 3) * angle + phases_[2]);
-        return tear_weight * rent * rent * rent + uneven_weight * uneven + fine_weight * fine;
+        // The derivatives of the waves sum to less than 1: it never runs backwards.
+        return angle + 0.4 * sine(angle + phases_[0]) + 0.15 * sine(2.0 * angle + phases_[1]) +
+               0.04 * sine(5.0 * angle + phases_[2]);
     }
 
   private:
-    int count_;
     std::array<double, 3> phases_{};
+};
+
+/// Depth of the tears of an edge at an angle, 0..1: tears of their own places, widths and depths
+/// between lobes, and a finer raggedness.
+class Rents {
+  public:
+    Rents(Random& random, int least, int most) {
+        const int count =
+            least + static_cast<int>(random.bits() % static_cast<std::uint32_t>(most - least + 1));
+        const double apart = 2.0 * pi / count;
+        for (int k = 0; k < count; ++k)
+            tears_.push_back({(k + random.uniform(0.0, 0.7)) * apart,
+                              apart * random.uniform(0.18, 0.5), random.uniform(0.35, 1.0)});
+        double coarse = 0.0, fine = 0.0;
+        for (std::size_t k = 0; k < waves_.size(); ++k) {
+            waves_[k].phase = random.uniform(0.0, 2.0 * pi);
+            waves_[k].size = random.uniform(0.3, 1.0);
+            (k < coarse_waves ? coarse : fine) += waves_[k].size;
+        }
+        for (std::size_t k = 0; k < waves_.size(); ++k)
+            waves_[k].size *= k < coarse_waves ? uneven_weight / coarse : fine_weight / fine;
+    }
+    [[nodiscard]] double at(double angle) const {
+        double rent = 0.0;
+        for (const Tear& tear : tears_) {
+            const double turns = (angle - tear.at) / (2.0 * pi);
+            const double away = 2.0 * pi * std::abs(turns - std::floor(turns + 0.5));
+            const double within = std::max(1.0 - away / tear.half, 0.0);
+            rent = std::max(rent, tear.depth * within * std::sqrt(within));
+        }
+        double depth = tear_weight * rent;
+        for (const Wave& wave : waves_)
+            depth += wave.size * (0.5 + 0.5 * sine(wave.turns * angle + wave.phase));
+        return depth;
+    }
+
+  private:
+    struct Tear {
+        double at, half, depth;
+    };
+    struct Wave {
+        double turns, phase = 0.0, size = 0.0;
+    };
+    static constexpr std::size_t coarse_waves = 3;
+    std::vector<Tear> tears_;
+    std::array<Wave, 6> waves_ = {{{1.0}, {2.0}, {3.0}, {11.0}, {17.0}, {23.0}}};
 };
 
 /// A point of the centre line of a ring's cross-section.
@@ -457,16 +504,18 @@ std::vector<RingColumn> ring_columns(const RingStyle& style, const OutlineSample
     const int waves = 5 + static_cast<int>(random.bits() % 4);
     const double phase = random.uniform(0.0, 2.0 * pi);
     const double other = random.uniform(0.0, 2.0 * pi);
+    const UnevenAngle uneven(random);
     // A vanishing ring follows the furrows and lumps of the stem; a full one spans them.
     const double conforms = conforming(style.width, attachment.r);
     const int count = context.detail.columns;
     std::vector<RingColumn> columns;
     for (int j = 0; j <= count; ++j) {
         const double angle = -2.0 * pi * (j % count) / count;  // counter-clockwise seen from above
+        const double wavy = uneven.at(angle);
         // Grooves too fine for the columns of the mesh would alias.
         columns.push_back(
             {sine_cosine(angle),
-             sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
+             sine(waves * wavy + phase) + 0.6 * sine((2 * waves + 1) * wavy + other),
              3 * groove_count > count ? 0.0 : sine(groove_count * angle + other),
              1.0 - ring_tear * style.tear * rents.at(angle),
              conforms > 0.0 ? conforms * context.dents.stem(attachment.share, angle) : 0.0});
@@ -545,21 +594,25 @@ class SacProfile {
 /// Folds of a sac's wall, -1..1, by angle and height.
 class SacFolds {
   public:
-    SacFolds(std::uint32_t seed, int columns) {
-        Random random(seed, purposes::sac_folds);
+    SacFolds(std::uint32_t seed, int columns)
+        : SacFolds(Random(seed, purposes::sac_folds), columns) {}
+    [[nodiscard]] double at(double angle, double share) const {
+        const double wavy = uneven_.at(angle);
+        const double coarse = sine(count_ * wavy + phases_[0] + lean_ * share);
+        return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases_[1]) +
+               (fine_ ? 0.2 * sine((2 * count_ + 1) * wavy + phases_[2] - lean_ * share) : 0.0);
+    }
+
+  private:
+    SacFolds(Random random, int columns) : uneven_(random) {
         count_ = 5 + static_cast<int>(random.bits() % 3);
         for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
         lean_ = random.uniform(-1.5, 1.5);
         // Folds too fine for the columns of the mesh would alias.
         fine_ = 4 * (2 * count_ + 1) <= columns;
     }
-    [[nodiscard]] double at(double angle, double share) const {
-        const double coarse = sine(count_ * angle + phases_[0] + lean_ * share);
-        return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases_[1]) +
-               (fine_ ? 0.2 * sine((2 * count_ + 1) * angle + phases_[2] - lean_ * share) : 0.0);
-    }
 
-  private:
+    UnevenAngle uneven_;
     int count_ = 0;
     std::array<double, 3> phases_{};
     double lean_ = 0.0;

@@ -58,7 +58,7 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const Morp
             const auto alike = [&](const Source& other) {
                 const PatchStyle& two = other.now.*style;
                 return two.count == one.count && two.from == one.from && two.to == one.to &&
-                       two.elongation == one.elongation;
+                       two.elongation == one.elongation && two.fray == one.fray;
             };
             double weight = 0.0;
             for (std::size_t j = i; j < sources.size(); ++j)

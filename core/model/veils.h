@@ -15,6 +15,7 @@ struct PatchStyle {
     double height = 0.5;
     double elongation = 1.0;
     double lift = 0.0;
+    double fray = 0.0;
     double from = 0.0;
     double to = 1.0;
 
@@ -41,6 +42,12 @@ struct PatchStyle {
                  .max = 1,
                  .doc =
                      "How far the tip points to the apex (negative) or to the margin (positive)."});
+        visit(&P::fray,
+              Info{.name = "fray",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How ragged the rims of warts are; how far scales are frayed into "
+                          "tufts of hairs, which are painted alone."});
         visit(&P::from, Info{.name = "from",
                              .min = 0,
                              .max = 1,

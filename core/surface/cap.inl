@@ -258,6 +258,31 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     return out;
 }
 
+/// Draws a scale that is frayed into a tuft: dark hairs that leave the cap together and part towards
+/// the margin.
+///
+/// a, b  place in half lengths and widths, a towards the margin
+/// flap  how far a whole scale would cover it
+HWY_INLINE void add_tuft(const PatchPlan& patch, const VeilPlan& veil, VF a, VF b, VF flap,
+                         VF window, Texel& texel) {
+    const VF one = set(1.0F);
+    const VF across = b / (set(0.72F) + set(0.30F) * a);
+    const VF hairs = across * set(0.9F * static_cast<float>(tuft_hairs));
+    const VF thread = noise2(a * set(0.8F) + set(0.37F) * hairs, hairs, patch.seed);
+    const VF length = noise2(set(2.7F) + set(0.4F) * across, hairs, patch.seed ^ 0x51U);
+    const VF end = set(0.62F) + set(0.75F) * length;
+    const VF along = (a + set(0.85F)) / hn::Max(end + set(0.85F), set(0.2F));
+    const VF gaps = mix(set(0.72F), smooth(thread, -0.22F, 2.6F), set(patch.hairs));
+    const VF bundle = (one - smooth(hn::Abs(across) + set(0.35F) * thread, 0.45F, 2.0F)) *
+                      (one - smooth(along, 0.62F, 2.6F)) * smooth(a, -0.95F, 3.0F);
+    const VF cover = mix(flap, bundle * gaps, set(patch.fray)) * window * set(patch.shown);
+    const VF dark = one + thread * set(0.35F) - set(0.25F) * bundle;
+    texel.colour = mix(texel.colour, shaded(rgb(veil.colour), dark), cover);
+    texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
+    texel.height = texel.height + (set(0.4F) + set(0.6F) * unit(along)) * set(patch.relief) * cover;
+    texel.occlusion = texel.occlusion * (one - set(0.25F) * bundle * (one - gaps));
+}
+
 /// Draws one wart or scale over a texel: colour, roughness, a little relief, and shade round its
 /// base.
 HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF y, Texel& texel) {
@@ -272,7 +297,7 @@ HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
         VF far = set(0.0F);
         for (std::size_t side = 0; side < 6; ++side)
             far = hn::Max(far, a * set(patch.side_x[side]) + b * set(patch.side_y[side]));
-        far = far + grain * set(0.16F);
+        far = far + grain * set(0.16F + 0.35F * patch.fray);
         const VF cover = (one - smooth(far, 0.86F, 5.0F)) * window * set(patch.shown);
         const VF foot =
             (one - smooth(far, 0.75F, 1.4F)) * (one - cover) * window * set(patch.shown);
@@ -294,8 +319,9 @@ HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
         const VF taper = one - set(0.62F) * smooth(tipwards, -0.35F, 0.8F);
         const VF side = hn::Abs(b) / hn::Max(taper, set(0.1F));
         const VF far = hn::Max(side, hn::Abs(a)) + thread * set(0.24F);
-        const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) *
-                         smooth(tipwards, -1.0F, 1.2F);
+        VF cover = (one - smooth(far, 0.80F, 4.0F)) * smooth(tipwards, -1.0F, 1.2F);
+        if (patch.fray > 0.0F) return add_tuft(patch, veil, a, b, cover, window, texel);
+        cover = cover * window * set(patch.shown);
         const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window *
                         set(patch.shown) * smooth(tipwards, -0.2F, 1.0F);
         const VF tip = smooth(tipwards + thread * set(0.45F), -0.05F, 1.1F);

@@ -417,6 +417,8 @@ void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t
         one.per_width = single(1.0 / width);
         one.relief =
             single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
+        one.fray = single(style.fray);
+        one.hairs = resolvable(width * 0.5 * plan.frames[0].width / tuft_hairs);
         one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
         one.reach = patch_window * single(std::max(length, width));
         Random stream(seed, warts ? purposes::wart_outlines : purposes::scale_outlines, patch.id);

@@ -278,7 +278,10 @@ struct PatchPlan {
     float relief = 0.0F;  ///< height in arcs
     float lift = 1.0F;    ///< position of the tip: 1 the outer end, -1 the inner, between: flat
     float shown = 0.0F;   ///< opacity, 0..1
-    float reach = 0.0F;   ///< extent along the rows, in disc radii
+    float fray =
+        0.0F;  ///< of a wart: how ragged its rim is; of a scale: 0 a flap, 1 a tuft of hairs
+    float hairs = 0.0F;  ///< how far its single hairs are as large as texels, 0..1
+    float reach = 0.0F;  ///< extent along the rows, in disc radii
     std::array<float, 6> side_x{}, side_y{};
     std::uint32_t seed = 0;
     int kind = 0;  ///< 0 wart, 1 scale
@@ -286,6 +289,8 @@ struct PatchPlan {
 
 /// Distance, in half lengths and widths, beyond which a patch changes nothing.
 inline constexpr float patch_window = 1.45F;
+/// Hairs side by side in a tuft, about.
+inline constexpr double tuft_hairs = 5.0;
 
 struct PaintPlan {
     int side = 0;

@@ -194,6 +194,56 @@ TEST(Ornaments, RingStylesMakeItHangStandOffThickenAndTear) {
     EXPECT_GT(area(with(&RingStyle::grooves, 1.0)), 1.002 * area(with(&RingStyle::grooves, 0.0)));
 }
 
+TEST(Ornaments, TornEdgesAreNotPeriodic) {
+    // The height of the highest point of a sac's edge by angle, less its mean.
+    const auto edge = [](std::uint32_t seed) {
+        constexpr std::size_t sectors = 96;
+        Individual individual = straight_amanita();
+        individual.painted_seed = seed;
+        individual.has_ring = false;
+        individual.has_sac = true;
+        individual.sac = {.height = 0.04, .gap = 0.1, .hold = 0.7, .tear = 1.0};
+        std::vector<double> high(sectors, 0.0);
+        for (const glm::vec3& p : last_piece(individual).positions) {
+            const double turns = std::atan2(double{p.z}, double{p.x}) / (2.0 * pi) + 1.0;
+            double& here = high[static_cast<std::size_t>(turns * sectors + 0.5) % sectors];
+            here = std::max(here, double{p.y});
+        }
+        double mean = 0.0;
+        for (const double h : high) mean += h / sectors;
+        for (double& h : high) h -= mean;
+        return high;
+    };
+    const auto product = [](const std::vector<double>& a, const std::vector<double>& b,
+                            std::size_t by) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[(i + by) % b.size()];
+        return sum;
+    };
+    for (const std::uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
+        const std::vector<double> one = edge(seed), other = edge(seed + 5);
+        const double whole = product(one, one, 0);
+        for (std::size_t by = 12; by <= 84; ++by)
+            EXPECT_LT(product(one, one, by), 0.8 * whole) << seed << " turned by " << by;
+        EXPECT_LT(product(one, other, 0), 0.8 * whole) << "another seed is torn elsewhere";
+    }
+}
+
+TEST(Ornaments, FrayedScalesAreHairsThatOnlyImagesShow) {
+    Individual individual =
+        individual_of(atlas().find("coprinus_comatus")->species.stages[2].model);
+    const std::uint64_t whole = ornament_count(individual, details[0]).triangles;
+    const Mesh mesh = swept_mesh(individual, 0);
+    for (PatchLayer& layer : individual.layers)
+        if (layer.purpose == purposes::scales) layer.style.fray = 0.5;
+    const std::uint64_t frayed = ornament_count(individual, details[0]).triangles;
+    EXPECT_LT(frayed, whole);
+    // All but pieces that are absent at this age.
+    const std::uint64_t fewer = mesh.triangles() - swept_mesh(individual, 0).triangles();
+    EXPECT_LE(fewer, whole - frayed);
+    EXPECT_GT(10 * fewer, 9 * (whole - frayed));
+}
+
 TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
     Individual individual = straight_amanita();
     individual.has_ring = false;

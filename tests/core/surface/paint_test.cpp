@@ -166,6 +166,37 @@ TEST(Paint, NormalsOfABumpPointAwayFromItsCentre) {
     EXPECT_GT(up, 0.0);
 }
 
+TEST(Paint, FrayedScalesCoverLessAndAreRagged) {
+    PaintParams params;
+    params.seed = 4;
+    params.side = 512;
+    params.scales = {.count = 60, .size = 0.12, .height = 0.2, .elongation = 2.0};
+    params.ornaments.scales = 1.0;
+    params.surface.cap.ramp = {{255, 255, 255}};
+    params.surface.veil.colour = params.surface.veil.tip = {0, 0, 0};
+    // How dark the cap is, and how much that changes along its rows.
+    const auto dark = [&](double fray, int count) {
+        params.scales.fray = fray;
+        params.scales.count = count;
+        const RawImages images = paint_raw(params);
+        double sum = 0.0, changes = 0.0;
+        for (int y = 0; y < 256; ++y)
+            for (int x = 1; x < 256; ++x) {
+                const int here = texel(images, ImageKind::base_color, x, y).r;
+                sum += 255 - here;
+                changes += std::abs(here - texel(images, ImageKind::base_color, x - 1, y).r);
+            }
+        return std::pair(sum, changes);
+    };
+    const auto [bare, plain] = dark(0.0, 0);
+    const auto [flaps, outlines] = dark(0.0, 60);
+    const auto [hairs, ends] = dark(1.0, 60);
+    EXPECT_GT(hairs - bare, 0.1 * (flaps - bare)) << "they are dark";
+    EXPECT_LT(hairs - bare, 0.9 * (flaps - bare));
+    EXPECT_GT((ends - plain) / (hairs - bare), 1.25 * (outlines - plain) / (flaps - bare))
+        << "more edges for what they cover";
+}
+
 TEST(Paint, OrmHasNoMetal) {
     const RawImages images = paint_raw(motley(HymeniumPattern::ridges));
     for (std::size_t i = 2; i < images.rgb[2].size(); i += 3) ASSERT_EQ(images.rgb[2][i], 0);
