@@ -352,15 +352,8 @@ Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) 
         read_preset_surface<Kind>(atlas, call.captured[0], call.captured[1], query, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     const auto decide = [&](ValidationErrors& found) {
-        const auto paint = std::make_shared<const typename Kind::Paint>(requested.paint);
-        const auto side = static_cast<std::uint64_t>(paint->texture_size.value);
-        refuse_texels(context.options, 3 * side * side, false, found);
-        Cost cost = Kind::cost_of_paint(*paint);
-        if (Format == ImageFormat::webp) cost.webp_texels = 3 * side * side;
-        return PaintWork{image_key(*paint, Format), cost,
-                         [paint](const ExecutionContext& execution) {
-                             return painted_images(*paint, execution, Format);
-                         }};
+        return paint_work(context, requested.paint, Kind::cost_of_paint(requested.paint), Format,
+                          found);
     };
     std::string of = requested.preset;
     if constexpr (requires { requested.paint.seed; })

@@ -65,13 +65,7 @@ Plan plan_wood_image(RouteCall& call, const char* product, ImageFormat format, Q
     const std::optional<ImageKind> kind = read_image(call.captured[1], call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     const auto decide = [&](ValidationErrors& found) {
-        refuse_texels(context.options, texels_of(paint), false, found);
-        Cost cost = cost_of_paint(paint);
-        if (format == ImageFormat::webp) cost.webp_texels = texels_of(paint);
-        return PaintWork{image_key(paint, format), cost,
-                         [paint, format](const ExecutionContext& execution) {
-                             return painted_images(paint, execution, format);
-                         }};
+        return paint_work(context, paint, cost_of_paint(paint), format, found);
     };
     const ImageResource image{*kind,
                               format,
