@@ -22,6 +22,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "level_ranges",
             "manifest",
             "mix",
+            "model",
             "products",
             "rows",
             "schema",
@@ -30,7 +31,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "weights",
         ]
             .map((name) => `export * from "./${name}";`)
-            .concat('export { PerspectiveCamera, Vector3 } from "three";')
+            .concat('export { Box3, Group, PerspectiveCamera, Vector3 } from "three";')
             .join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
@@ -841,4 +842,20 @@ test("a close-up shows its size, of a small model a part", () => {
     const of = (x, y, z) => page.frameOf(0.05, new page.Vector3(x, y, z));
     assert.equal(of(0.1, 0.14, 0.1), 0.05);
     assert.ok(Math.abs(of(0.01, 0.02, 0.01) - 0.014) < 1e-12);
+});
+
+test("what grows on wood or hangs far below its origin is told from what stands on the ground", () => {
+    const { Box3, Group, Vector3, hangsOnWall, woodOf } = page;
+    const between = (low, high) => new Box3(new Vector3(-1, low, -1), new Vector3(1, high, 1));
+    const model = new Group();
+    assert.equal(hangsOnWall(model, between(-0.1, 1)), false, "a foot in the soil");
+    assert.equal(hangsOnWall(model, between(-0.6, 0.6)), true, "an impostor of a bracket");
+    const level = new Group();
+    level.name = "fomes_fomentarius_s1_LOD0";
+    const wood = new Group();
+    wood.name = "fomes_fomentarius_s1_LOD0_wood";
+    level.add(wood);
+    model.add(level);
+    assert.equal(woodOf(model), wood);
+    assert.equal(hangsOnWall(model, between(-0.1, 1)), true, "a tier high up its trunk");
 });

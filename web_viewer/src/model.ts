@@ -176,10 +176,10 @@ export function boundsOf(model: Object3D): Box3 {
 /** Part of its height that a model which stands on the ground has below it at most. */
 const mostBelow = 0.3;
 
-/** Returns true for a model that begins far below its origin: a bracket, whose origin is where it
- *  grows out of the wood. */
-export function hangsOnWall({ min, max }: Box3): boolean {
-    return min.y < -mostBelow * (max.y - min.y);
+/** Returns true for a model that has wood, or begins far below its origin: brackets, whose origin is
+ *  where they grow out of a trunk. */
+export function hangsOnWall(model: Object3D, { min, max }: Box3): boolean {
+    return woodOf(model) !== undefined || min.y < -mostBelow * (max.y - min.y);
 }
 
 export function setWireframe(model: Object3D, shown: boolean): void {

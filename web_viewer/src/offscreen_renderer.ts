@@ -66,7 +66,7 @@ export class OffscreenRenderer {
         this.camera.updateProjectionMatrix();
         this.light.aim(ball);
         this.scene.add(model);
-        const stands = onGround && !hangsOnWall(bounds);
+        const stands = onGround && !hangsOnWall(model, bounds);
         this.ground.visible = this.contact.visible = stands;
         if (stands) {
             this.ground.fit(ball.radius, 1);

@@ -279,7 +279,7 @@ export class Stage {
         this.model = model;
         const bounds = boundsOf(model);
         // What hangs on a wall is shown with its wood standing on the ground.
-        if (this.style.liesOnGround || hangsOnWall(bounds)) model.position.y = -bounds.min.y;
+        if (this.style.liesOnGround || hangsOnWall(model, bounds)) model.position.y = -bounds.min.y;
         this.bounds = boundsOf(model);
         this.applyLevel();
         this.applySolids();
