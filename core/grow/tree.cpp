@@ -19,6 +19,7 @@
 #include "core/params/messages.h"
 #include "core/params/reader.h"
 #include "core/plant/foliage.h"
+#include "core/plant/root_flare.h"
 #include "core/plant/tree_sway.h"
 
 namespace sporeprint {
@@ -293,6 +294,7 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
     for (const int lod : levels_in_file(params.lod, params.file)) {
         params.lod = lod;
         Bark bark = bark_of(tree, lod);
+        flare_roots(bark, tree, params.look.shape.root_flare, params.seed);
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
         TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);

@@ -73,6 +73,7 @@ enum Purpose : std::uint32_t {
     colony_layout = 131,   ///< seed of the layout of a colony
     colony_patches = 132,  ///< middles of the patches of a troop; slope of the rows of a tier
     wood = 133,            ///< bumps of a piece of wood
+    root_flare = 134,      ///< places of the roots of a trunk
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -146,6 +147,7 @@ enum Purpose : std::uint32_t {
         case colony_layout:
         case colony_patches:
         case wood:
+        case root_flare:
             return 1;
     }
     return 0;

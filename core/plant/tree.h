@@ -60,6 +60,7 @@ struct TreeShape {
     double phototropism = 0.0;
     double light_deg = 60.0;
     double light_azimuth_deg = 0.0;
+    double root_flare = 0.0;
 
     static constexpr void fields(auto visit) {
         using T = TreeShape;
@@ -148,6 +149,12 @@ struct TreeShape {
                                           .min = -180,
                                           .max = 180,
                                           .doc = "Where the light comes from, from +z to +x."});
+        visit(&T::root_flare,
+              Info{.name = "root_flare",
+                   .min = 0,
+                   .max = 2,
+                   .doc = "How far the foot of the trunk widens into its roots; 1 is "
+                          "about twice as wide as the trunk."});
     }
     bool operator==(const TreeShape&) const = default;
 

@@ -1,0 +1,76 @@
+#include "core/plant/root_flare.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Height within which the flare falls to 1 / e, in radii of the trunk.
+constexpr double flare_height = 1.1;
+
+/// The map of space about the foot of a trunk.
+class Flare {
+  public:
+    Flare(double radius, double flare, std::uint32_t seed) : radius_(radius), flare_(flare) {
+        Random random(seed, purposes::root_flare);
+        roots_ = 4 + static_cast<int>(random.bits() % 3);
+        for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
+    }
+
+    [[nodiscard]] glm::dvec3 at(const glm::dvec3& p) const {
+        const double height = std::max(p.y, 0.0) / (flare_height * radius_);
+        const double fallen = exponential(-height * (1.0 + 0.5 * height));
+        const double angle = arc_tangent(p.z, p.x);
+        // Roots are neither equally far apart nor equally strong.
+        const double uneven = angle + 0.35 * sine(angle + phases_[1]);
+        const double root = 0.5 + 0.5 * sine(roots_ * uneven + phases_[0]);
+        const double strong = 0.8 + 0.2 * sine(2.0 * angle + phases_[2]);
+        const double factor = 1.0 + flare_ * fallen * strong * (0.35 + 1.1 * root * root);
+        return {p.x * factor, p.y, p.z * factor};
+    }
+
+  private:
+    double radius_, flare_;
+    int roots_ = 5;
+    std::array<double, 3> phases_{};
+};
+
+}  // namespace
+
+void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed) {
+    if (flare <= 0.0) return;
+    const double radius = tree.skeleton.nodes.front().radius;
+    const Flare map(radius, flare, seed);
+    const int trunk = tree.ramification.nodes.front().order;
+    const double step = 1e-4 * radius;
+    Mesh& mesh = bark.mesh;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::dvec3 place(mesh.positions[i]);
+        if (tree.ramification.nodes[bark.edges[i]].order != trunk ||
+            place.y > 6.0 * flare_height * radius)
+            continue;
+        const glm::dvec3 normal(mesh.normals[i]), aside = square_to(normal, {1.0, 0.0, 0.0}),
+                                                  up = glm::cross(normal, aside);
+        const auto moved_along = [&](const glm::dvec3& way) {
+            return map.at(place + step * way) - map.at(place - step * way);
+        };
+        mesh.positions[i] = glm::vec3(map.at(place));
+        const glm::dvec3 across = glm::cross(moved_along(aside), moved_along(up));
+        mesh.normals[i] = glm::vec3(glm::normalize(across));
+        if (mesh.tangents.empty()) continue;
+        const glm::dvec3 out(mesh.normals[i]), tangent(mesh.tangents[i]);
+        mesh.tangents[i] = glm::vec4(
+            glm::vec3(glm::normalize(tangent - glm::dot(tangent, out) * out)), mesh.tangents[i].w);
+    }
+}
+
+}  // namespace sporeprint
