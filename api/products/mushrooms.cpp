@@ -145,7 +145,7 @@ double usual_triangles(int lod) { return static_cast<double>(24'000 >> (2 * lod)
 /// Returns the images of the wood in the file of a request; nothing if there are none.
 std::optional<WoodPaint> wood_in_file(const MushroomSpec& spec, const Individual& individual) {
     if (spec.params.lod == impostor_lod) return std::nullopt;
-    return wood_paint(individual, first_level(spec, individual));
+    return wood_paint(spec, individual, first_level(spec, individual));
 }
 
 /// Returns the same for a request whose individual is not resolved yet: by the recorded form of its

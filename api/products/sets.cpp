@@ -243,7 +243,10 @@ Cost guessed_cost(const SetSpec& spec, bool is_made, const Atlas& atlas) {
         cost += cost_of_individuals(mix, is_branched(mix, atlas), 2 * of_mix);
         cost.vertices += 400 * of_mix;  // of the farthest level
         if (!is_made) continue;
-        if (spec.packing == SetPacking::one_file) file.params.file.lods = Lods::single;
+        if (spec.packing == SetPacking::one_file) {
+            file.params.file.lods = Lods::single;
+            file.params.substrate = Substrate::none;
+        }
         for (std::size_t level = 0; level < spec.params.levels.size(); ++level) {
             file.params.lod = spec.params.levels[level];
             for (int seed = 0; seed < spec.params.seeds; ++seed) {

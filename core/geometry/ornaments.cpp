@@ -414,7 +414,8 @@ class UnevenAngle {
 /// between lobes, and a finer raggedness.
 class Rents {
   public:
-    Rents(Random& random, int least, int most) {
+    /// columns  of the mesh; raggedness too fine for them would alias
+    Rents(Random& random, int least, int most, int columns) {
         const int count =
             least + static_cast<int>(random.bits() % static_cast<std::uint32_t>(most - least + 1));
         const double apart = 2.0 * pi / count;
@@ -425,10 +426,12 @@ class Rents {
         for (std::size_t k = 0; k < waves_.size(); ++k) {
             waves_[k].phase = random.uniform(0.0, 2.0 * pi);
             waves_[k].size = random.uniform(0.3, 1.0);
+            if (3.0 * waves_[k].turns > columns) waves_[k].size = 0.0;
             (k < coarse_waves ? coarse : fine) += waves_[k].size;
         }
         for (std::size_t k = 0; k < waves_.size(); ++k)
-            waves_[k].size *= k < coarse_waves ? uneven_weight / coarse : fine_weight / fine;
+            waves_[k].size *=
+                k < coarse_waves ? uneven_weight / coarse : fine_weight / std::max(fine, 0.3);
     }
     [[nodiscard]] double at(double angle) const {
         double rent = 0.0;
@@ -499,7 +502,7 @@ std::vector<RingColumn> ring_columns(const RingStyle& style, const OutlineSample
     Random groove_stream(context.seed, purposes::ring_grooves),
         tear_stream(context.seed, purposes::ring_tear);
     const int groove_count = 15 + static_cast<int>(groove_stream.bits() % 5);
-    const Rents rents(tear_stream, 9, 13);
+    const Rents rents(tear_stream, 9, 13, context.detail.columns);
     Random random(context.seed, purposes::ring_ruffle);
     const int waves = 5 + static_cast<int>(random.bits() % 4);
     const double phase = random.uniform(0.0, 2.0 * pi);
@@ -609,7 +612,7 @@ class SacFolds {
         for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
         lean_ = random.uniform(-1.5, 1.5);
         // Folds too fine for the columns of the mesh would alias.
-        fine_ = 4 * (2 * count_ + 1) <= columns;
+        fine_ = 6 * (2 * count_ + 1) <= columns;
     }
 
     UnevenAngle uneven_;
@@ -690,7 +693,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& co
     const double thickness = std::min(style.thickness, sac_thickness * height);
     const int count = solid.columns;
     Random random(context.seed, purposes::sac);
-    const Rents rents(random, 3, 5);
+    const Rents rents(random, 3, 5, count);
     const SacFolds folds(context.seed, count);
     const SacProfile profile(style, context.outline.stem, context.deformer.base());
     const double conforms = conforming(height, profile.widest());

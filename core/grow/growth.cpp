@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/grow/level_choice.h"
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
 #include "core/problems.h"
@@ -59,6 +60,8 @@ GrowthClip growth_clip(const MushroomSpec& spec, const Individual& individual, c
     growth.targets.resize(ages.size());
     std::vector<std::exception_ptr> errors(ages.size());
     std::vector<std::function<void()>> pieces;
+    // Clips have whole levels only. A number of triangles is that of the mesh with its wood.
+    const int level = first_level(spec, individual).lod;
     // All ages are weights of one set, so the correspondence is looked up once.
     std::map<std::string, std::shared_ptr<const MorphSet>> sets;
     const GetOrCompute<MorphSet> morphs = [&](const std::string& key, const auto& make) {
@@ -71,6 +74,8 @@ GrowthClip growth_clip(const MushroomSpec& spec, const Individual& individual, c
         MushroomSpec frame = spec;
         frame.params.age = age;
         frame.params.substrate = Substrate::none;
+        frame.params.lod = level;
+        frame.params.triangles.reset();
         frame.params.textures = Textures::none;  // texture coordinates are those of the base mesh
         Individual at_frame = at_age(age, [&] { return resolve(frame, atlas, morphs); });
         at_frame.trunk_radius = individual.trunk_radius;

@@ -145,14 +145,14 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const std::uint64_t images = has_skin ? 3 * side * side : 0;
     std::uint64_t of_wood = 0;
     if (has_skin)
-        if (const std::optional<WoodPaint> paint = wood_paint(individual, levels.front()))
+        if (const std::optional<WoodPaint> paint = wood_paint(spec, individual, levels.front()))
             of_wood = texels_of(*paint);
     e.texels = of_wood + images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
     add_image_bytes(
         e, (of_wood + static_cast<std::uint64_t>(image_sets(params.variants)) * images) / 3,
         params.textures, params.file);
-    add_solid_bytes(e, 1, 0, params.file);
+    add_solid_bytes(e, wood_behind(individual) ? 2 : 1, 0, params.file);
     if (has_impostor(params.lod, params.file)) add_impostor(e, params.texture_size, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
@@ -292,7 +292,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     const std::size_t wood_material = scene.materials.size();
     EmbeddedImages images_of_wood;
     if (!wood.empty())
-        images_of_wood = add_wood_material(scene, *wood_paint(individual, levels.front().lod),
+        images_of_wood = add_wood_material(scene, *wood_paint(spec, individual, levels.front().lod),
                                            params.textures, params.file, extras, execution);
     execution.observer(Step::pack);
     Mushroom grown;

@@ -13,7 +13,7 @@ namespace {
 
 /// How far the wood goes on above and below a bracket, and how far behind its bark it is split, in
 /// radii of the wood. A bracket reaches no farther round it.
-constexpr double beyond_bracket = 0.5, split_behind = 0.75;
+constexpr double beyond_bracket = 0.5, beyond_growing = 1.0, split_behind = 0.75;
 
 }  // namespace
 
@@ -26,7 +26,9 @@ std::optional<WoodPiece> wood_behind(const Individual& individual) {
         extent.include(*curve);
     std::uint32_t names = 0;
     for (const SpeciesShare& part : individual.parts) names ^= stream_of(part.id);
-    const double beyond = beyond_bracket * individual.trunk_radius;
+    // The bracket of a clip grows taller than it is at the requested age.
+    const bool grows = individual.effective.animation == Animation::growth;
+    const double beyond = (grows ? beyond_growing : beyond_bracket) * individual.trunk_radius;
     return WoodPiece{.radius = individual.trunk_radius,
                      .bottom = extent.low - beyond,
                      .top = extent.high + beyond,
@@ -41,10 +43,11 @@ MeshCount wood_count(const Individual& individual, DetailLevel level) {
     return piece ? wood_count(*piece, wood_lod(level)) : MeshCount{};
 }
 
-std::optional<WoodPaint> wood_paint(const Individual& individual, DetailLevel first) {
+std::optional<WoodPaint> wood_paint(const MushroomSpec& spec, const Individual& individual,
+                                    DetailLevel first) {
     const Substrate substrate = individual.effective.substrate.value_or(Substrate::none);
     if (substrate == Substrate::none) return std::nullopt;
-    return WoodPaint{substrate, wood_side(individual.effective.texture_size, first.nearest())};
+    return WoodPaint{substrate, wood_side(spec.params.texture_size, first.nearest())};
 }
 
 ImageSide wood_side(TextureSize texture_size, int lod) {

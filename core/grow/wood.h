@@ -29,7 +29,8 @@ namespace sporeprint {
 /// Returns the images of the wood in a file of a mushroom; nothing for what stands on none.
 ///
 /// first  level of detail with which the file begins
-[[nodiscard]] std::optional<WoodPaint> wood_paint(const Individual& individual, DetailLevel first);
+[[nodiscard]] std::optional<WoodPaint> wood_paint(const MushroomSpec& spec,
+                                                  const Individual& individual, DetailLevel first);
 
 /// Returns the side of the images of wood in a file: half of that of the fungi, which are nearer to
 /// the eye.

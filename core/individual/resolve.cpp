@@ -404,22 +404,49 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
     }
 }
 
+/// Returns how many times as wide as now the widest stage of any species is.
+double size_left(const std::vector<Source>& sources) {
+    const auto width_of = [](const Model& model) {
+        const Outline outline = Outline::unproven(silhouette_of(model));
+        Extent extent{0.0, 0.0};
+        extent.include(outline.cap);
+        return extent.radius;
+    };
+    double most = 1.0;
+    for (const Source& source : sources) {
+        double now = 0.0, widest = 0.0;
+        for (std::size_t i = 0; i < source.stages.size(); ++i) {
+            const double width = width_of(*source.stages[i]);
+            now += source.growth[i] * width;
+            widest = std::max(widest, width);
+        }
+        if (now > 0.0) most = std::max(most, widest / now);
+    }
+    return most;
+}
+
 /// Decides what an individual stands on: wood behind a bracket alone, by default that of the species
-/// with the largest weight.
+/// that does most to make it one. The wood of a clip is as wide as its widest frame needs.
 ///
 /// throws  Impossible for wood behind what stands on the ground
 void resolve_substrate(Individual& individual, const std::vector<Source>& sources) {
     std::optional<Substrate>& substrate = individual.effective.substrate;
     if (individual.grows_from_wall()) {
-        const auto most = std::max_element(
-            sources.begin(), sources.end(),
-            [](const Source& one, const Source& other) { return one.weight < other.weight; });
+        // Of a mix, what makes it a bracket counts, not what stands on the ground.
+        const auto most = std::max_element(sources.begin(), sources.end(),
+                                           [](const Source& one, const Source& other) {
+                                               return one.weight * azimuth_of(one).lateral <
+                                                      other.weight * azimuth_of(other).lateral;
+                                           });
         substrate = substrate.value_or(most->wood);
         if (*substrate == Substrate::none) return;
         Extent extent{individual.stem_base, individual.stem_base};
         for (const SubCurve* curve : {&individual.outline.hymenium, &individual.outline.cap})
             extent.include(*curve);
-        individual.trunk_radius = std::max(trunk_by_bracket * extent.radius, least_trunk);
+        const double grown = individual.effective.animation == Animation::growth
+                                 ? std::max(size_left(sources), 1.0)
+                                 : 1.0;
+        individual.trunk_radius = std::max(trunk_by_bracket * grown * extent.radius, least_trunk);
         return;
     }
     if (substrate.value_or(Substrate::none) != Substrate::none)

@@ -60,8 +60,8 @@ class StageCheck {
     // Places are drawn once per individual, so their parameters must be equal in all stages.
     void check_places(const PatchStyle& first, const PatchStyle& stage, const char* member) {
         if (first.count != stage.count || first.from != stage.from || first.to != stage.to ||
-            first.elongation != stage.elongation)
-            add(member, "count, from, to and elongation are those of the first stage");
+            first.elongation != stage.elongation || first.fray != stage.fray)
+            add(member, "count, from, to, elongation and fray are those of the first stage");
     }
 
     std::string path_;  ///< of the model

@@ -272,8 +272,8 @@ class SplitPiece : WoodBuilder {
         // Of the crossing of the ray with the line from left to right.
         const double distance = (left.z * right.x - left.x * right.z) /
                                 ((right.x - left.x) * at.cosine - (right.z - left.z) * at.sine);
-        const glm::dvec3 position = column == 0          ? pith + left
-                                    : column == columns_ ? pith + right
+        const glm::dvec3 position = column == 0          ? bark_at(-edge_, height)
+                                    : column == columns_ ? bark_at(edge_, height)
                                                          : place(distance, at, height);
         add_vertex(position, normal, u, rings_at(std::min(distance / piece_.radius, 1.0)));
     }

@@ -849,6 +849,7 @@ test("what grows on wood or hangs far below its origin is told from what stands 
     const between = (low, high) => new Box3(new Vector3(-1, low, -1), new Vector3(1, high, 1));
     const model = new Group();
     assert.equal(hangsOnWall(model, between(-0.1, 1)), false, "a foot in the soil");
+    assert.equal(hangsOnWall(model, between(-0.35, 0.65)), false, "an egg of a stinkhorn");
     assert.equal(hangsOnWall(model, between(-0.6, 0.6)), true, "an impostor of a bracket");
     const level = new Group();
     level.name = "fomes_fomentarius_s1_LOD0";

@@ -173,7 +173,7 @@ function baseOf(
 ): CloseUp {
     const target = new Vector3().setFromMatrixPosition(individual?.matrix ?? model.matrixWorld);
     const middle = individual ? middleOf(individual) : bounds.getCenter(new Vector3());
-    if (stemsOf(model)) target.y = 0;
+    if (stemsOf(model)) target.y = new Vector3().setFromMatrixPosition(model.matrixWorld).y;
     const away = new Vector3(middle.x - target.x, 0, middle.z - target.z);
     // A lone bracket grows forwards from its wood, whose middle is behind it.
     const isBracket = !individual && woodOf(model) !== undefined;

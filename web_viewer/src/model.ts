@@ -174,7 +174,7 @@ export function boundsOf(model: Object3D): Box3 {
 }
 
 /** Part of its height that a model which stands on the ground has below it at most. */
-const mostBelow = 0.3;
+const mostBelow = 0.4;
 
 /** Returns true for a model that has wood, or begins far below its origin: brackets, whose origin is
  *  where they grow out of a trunk. */

@@ -52,7 +52,8 @@ TEST(WoodBehind, IsAbsentOnRequestAndBehindWhatStandsOnTheGround) {
         EXPECT_EQ(wood_count(resolved(order_of(id)), 0).vertices, 0U);
     }
     EXPECT_FALSE(wood_behind(resolved(on_wood(order_of("amanita_muscaria")))));
-    EXPECT_FALSE(wood_paint(resolved(on_wood(order_of("ramaria_formosa"))), 0));
+    EXPECT_FALSE(
+        wood_paint(order_of("ramaria_formosa"), resolved(on_wood(order_of("ramaria_formosa"))), 0));
 }
 
 TEST(WoodBehind, HasAMeshAndAMaterialOfItsOwn) {
@@ -127,6 +128,34 @@ TEST(WoodBehind, StandsStillInAClipAndInWind) {
         at_frame.trunk_radius = individual.trunk_radius;
         EXPECT_EQ(mushroom_mesh(frame, at_frame).positions.size(), mesh_of(spec).positions.size());
     }
+}
+
+TEST(WoodBehind, ClipsOfAnyNumberOfTrianglesHaveOneTopology) {
+    for (int triangles = 150; triangles < 700; triangles += 25) {
+        MushroomSpec spec = growing(on_wood(order_of("fomes_fomentarius")), 2);
+        spec.params.triangles = triangles;
+        EXPECT_NO_THROW((void)grown(spec)) << triangles;
+    }
+}
+
+TEST(WoodBehind, OfAClipIsWideEnoughForItsWidestFrame) {
+    for (const std::string& id : brackets)
+        for (const double age : {0.1, 0.6}) {
+            const MushroomSpec spec = growing(on_wood(order_of(id, age, 1, 1)), 2);
+            const Individual individual = resolved(spec);
+            const Bounds wood = bounds(wood_mesh(*wood_behind(individual), 1, false));
+            for (const double frame_age : {0.0, 0.6, 1.0}) {
+                MushroomSpec frame = on_wood(order_of(id, frame_age, 1, 1));
+                Individual at_frame = resolved(frame);
+                at_frame.trunk_radius = individual.trunk_radius;
+                const Bounds own = bounds(mushroom_mesh(frame, at_frame));
+                EXPECT_LT(wood.min.x, own.min.x) << id << " from " << age << " at " << frame_age;
+                EXPECT_GT(wood.max.x, own.max.x) << id << " from " << age << " at " << frame_age;
+                EXPECT_LT(wood.min.y, own.min.y) << id << " from " << age << " at " << frame_age;
+                EXPECT_GT(wood.max.y, own.max.y) << id << " from " << age << " at " << frame_age;
+                EXPECT_LT(wood.min.z, own.min.z) << id << " from " << age << " at " << frame_age;
+            }
+        }
 }
 
 TEST(WoodBehind, IsSolid) {

@@ -300,6 +300,8 @@ TEST(Resolve, BracketsStandOnTheWoodOfTheirHeaviestSpecies) {
     EXPECT_EQ(wood({{"fomes_fomentarius", 600}, {"trametes_versicolor", 400}}), Substrate::birch);
     EXPECT_EQ(wood({{"fomes_fomentarius", 400}, {"trametes_versicolor", 600}}), Substrate::beech);
     EXPECT_EQ(wood({{"amanita_muscaria", 1000}}), std::nullopt);
+    EXPECT_EQ(wood({{"amanita_muscaria", 550}, {"trametes_versicolor", 450}}), Substrate::beech)
+        << "not the birches under which the fly agaric stands";
     EXPECT_EQ(wood({{"amanita_muscaria", 900}, {"trametes_versicolor", 100}}), std::nullopt)
         << "hardly a bracket";
     const auto bent = [&](const Mix& mix, std::optional<Substrate> wanted = {}) {

@@ -105,6 +105,8 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const wood = { params: { path: { wood: "birch", image: "normal" }, query: { side: 128 } } } as const;
     await both(client.HEAD("/v1/colonies/wood/{wood}/{image}.jpg", wood), client.GET("/v1/colonies/wood/{wood}/{image}.jpg", { ...wood, ...binary }));
     await both(client.HEAD("/v1/colonies/wood/{wood}/{image}.webp", wood), client.GET("/v1/colonies/wood/{wood}/{image}.webp", { ...wood, ...binary }));
+    await both(client.HEAD("/v1/mushrooms/wood/{wood}/{image}.jpg", wood), client.GET("/v1/mushrooms/wood/{wood}/{image}.jpg", { ...wood, ...binary }));
+    await both(client.HEAD("/v1/mushrooms/wood/{wood}/{image}.webp", wood), client.GET("/v1/mushrooms/wood/{wood}/{image}.webp", { ...wood, ...binary }));
     await client.POST("/v1/colonies.glb", { body: { ...colony, ...small, count: 3 }, ...binary });
 
     await both(client.HEAD("/v1/leaves", {}), client.GET("/v1/leaves", {}));
