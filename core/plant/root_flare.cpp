@@ -51,13 +51,15 @@ void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed)
     const double radius = tree.skeleton.nodes.front().radius;
     const Flare map(radius, flare, seed);
     const int trunk = tree.ramification.nodes.front().order;
-    const double step = 1e-4 * radius;
+    const double step = 1e-4 * radius, axis = 0.02 * radius;
     Mesh& mesh = bark.mesh;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::dvec3 place(mesh.positions[i]);
         if (tree.ramification.nodes[bark.edges[i]].order != trunk ||
             place.y > 6.0 * flare_height * radius)
             continue;
+        // The map has no derivative on the axis, where the middle of the foot is.
+        if (place.x * place.x + place.z * place.z < axis * axis) continue;
         const glm::dvec3 normal(mesh.normals[i]), aside = square_to(normal, {1.0, 0.0, 0.0}),
                                                   up = glm::cross(normal, aside);
         const auto moved_along = [&](const glm::dvec3& way) {
@@ -67,9 +69,9 @@ void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed)
         const glm::dvec3 across = glm::cross(moved_along(aside), moved_along(up));
         mesh.normals[i] = glm::vec3(glm::normalize(across));
         if (mesh.tangents.empty()) continue;
-        const glm::dvec3 out(mesh.normals[i]), tangent(mesh.tangents[i]);
-        mesh.tangents[i] = glm::vec4(
-            glm::vec3(glm::normalize(tangent - glm::dot(tangent, out) * out)), mesh.tangents[i].w);
+        const glm::dvec3 tangent(mesh.tangents[i]);
+        mesh.tangents[i] =
+            glm::vec4(glm::vec3(square_to(glm::normalize(across), tangent)), mesh.tangents[i].w);
     }
 }
 

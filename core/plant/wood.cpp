@@ -66,54 +66,54 @@ class Bumps {
 class WoodBuilder {
   public:
     WoodBuilder(const WoodPiece& piece, int lod, bool textured)
-        : piece_(piece),
-          bumps_(piece),
-          sides_(sides[static_cast<std::size_t>(lod)]),
-          image_(wood_girths * 2.0 * pi * piece.radius),
-          step_(image_ / rows_of_image[static_cast<std::size_t>(lod)]),
-          textured_(textured) {}
+        : shape(piece),
+          bumps(piece),
+          whole_sides(sides[static_cast<std::size_t>(lod)]),
+          image_length(wood_girths * 2.0 * pi * piece.radius),
+          row_length(image_length / rows_of_image[static_cast<std::size_t>(lod)]),
+          has_texture(textured) {}
 
   protected:
     /// Number of rows of quads along the piece.
     [[nodiscard]] std::uint32_t rows() const {
-        return std::max(
-            1U, static_cast<std::uint32_t>(std::ceil((piece_.top - piece_.bottom) / step_ - 1e-6)));
+        return std::max(1U, static_cast<std::uint32_t>(
+                                std::ceil((shape.top - shape.bottom) / row_length - 1e-6)));
     }
 
     /// Distance of a row of vertices from the top, metres.
     [[nodiscard]] double down(std::uint32_t row) const {
-        return row == rows() ? piece_.top - piece_.bottom : static_cast<double>(row) * step_;
+        return row == rows() ? shape.top - shape.bottom : static_cast<double>(row) * row_length;
     }
 
     [[nodiscard]] Mesh finished() {
-        if (textured_) add_tangents(mesh_);
-        return std::move(mesh_);
+        if (has_texture) add_tangents(mesh);
+        return std::move(mesh);
     }
 
     void add_vertex(const glm::dvec3& position, const glm::dvec3& normal, double u, double v) {
-        mesh_.positions.emplace_back(position);
-        mesh_.normals.emplace_back(normal);
-        if (textured_) mesh_.texture_coordinates.emplace_back(u, v);
+        mesh.positions.emplace_back(position);
+        mesh.normals.emplace_back(normal);
+        if (has_texture) mesh.texture_coordinates.emplace_back(u, v);
     }
 
     [[nodiscard]] glm::dvec3 place(double distance, const SineCosine& at, double height) const {
-        return {distance * at.sine, height, distance * at.cosine - piece_.radius};
+        return {distance * at.sine, height, distance * at.cosine - shape.radius};
     }
 
     [[nodiscard]] glm::dvec3 bark_at(double angle, double height) const {
-        return place(bumps_.at(angle, height).length, sine_cosine(angle), height);
+        return place(bumps.at(angle, height).length, sine_cosine(angle), height);
     }
 
     /// u  of the image of bark
     void add_bark_vertex(double angle, std::uint32_t row, double u) {
-        const double height = piece_.top - down(row);
+        const double height = shape.top - down(row);
         const SineCosine at = sine_cosine(angle);
-        const Distance from = bumps_.at(angle, height);
+        const Distance from = bumps.at(angle, height);
         const glm::dvec3 outwards(at.sine, 0.0, at.cosine), aside(at.cosine, 0.0, -at.sine);
         const glm::dvec3 normal =
             outwards - from.by_angle / from.length * aside - glm::dvec3(0.0, from.by_height, 0.0);
         add_vertex(place(from.length, at, height), glm::normalize(normal), u,
-                   wood_bark_end * mirrored_place(down(row) / image_));
+                   wood_bark_end * mirrored_place(down(row) / image_length));
     }
 
     /// Returns the place across growth rings in the image.
@@ -124,7 +124,7 @@ class WoodBuilder {
     }
 
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
+        mesh.indices.insert(mesh.indices.end(), {a, b, c});
     }
 
     /// is_up  of a face that is seen from above: a, b, c are counter-clockwise from there
@@ -149,15 +149,15 @@ class WoodBuilder {
     }
 
     [[nodiscard]] std::uint32_t next_vertex() const {
-        return static_cast<std::uint32_t>(mesh_.positions.size());
+        return static_cast<std::uint32_t>(mesh.positions.size());
     }
 
-    const WoodPiece& piece_;
-    Bumps bumps_;
-    std::uint32_t sides_;  ///< of a whole piece
-    double image_, step_;  ///< length of an image and of a row, metres
-    bool textured_;
-    Mesh mesh_;
+    const WoodPiece& shape;
+    Bumps bumps;
+    std::uint32_t whole_sides;        ///< of a whole piece
+    double image_length, row_length;  ///< length of an image and of a row, metres
+    bool has_texture;
+    Mesh mesh;
 };
 
 /// Makes the mesh of a whole piece.
@@ -167,9 +167,9 @@ class WholePiece : WoodBuilder {
 
     [[nodiscard]] MeshCount count() const {
         // Two strips of bark; an end has two rings, and as many vertices in the middle as sides.
-        return {(sides_ + std::uint64_t{2}) * (rows() + 1) +
-                    2 * (2 * (sides_ + std::uint64_t{1}) + sides_),
-                std::uint64_t{2} * sides_ * rows() + std::uint64_t{6} * sides_};
+        return {(whole_sides + std::uint64_t{2}) * (rows() + 1) +
+                    2 * (2 * (whole_sides + std::uint64_t{1}) + whole_sides),
+                std::uint64_t{2} * whole_sides * rows() + std::uint64_t{6} * whole_sides};
     }
 
     Mesh take() && {
@@ -180,39 +180,39 @@ class WholePiece : WoodBuilder {
 
   private:
     [[nodiscard]] double angle_of(std::uint32_t column) const {
-        return 2.0 * pi * (static_cast<double>(column % sides_) / sides_ - 0.5);
+        return 2.0 * pi * (static_cast<double>(column % whole_sides) / whole_sides - 0.5);
     }
 
     void add_bark() {
-        const std::uint32_t half = sides_ / 2;
+        const std::uint32_t half = whole_sides / 2;
         for (std::uint32_t row = 0; row <= rows(); ++row)
             for (const bool is_front : {true, false})
                 for (std::uint32_t column = 0; column <= half; ++column) {
                     // The image is in front; behind it is mirrored, so that it is continuous on both
                     // sides.
                     const double along = static_cast<double>(column) / half;
-                    add_bark_vertex(angle_of(sides_ / 4 + (is_front ? 0 : half) + column), row,
+                    add_bark_vertex(angle_of(whole_sides / 4 + (is_front ? 0 : half) + column), row,
                                     is_front ? along : 1.0 - along);
                 }
-        for (const std::uint32_t strip : {0U, half + 1}) add_quads(strip, half, sides_ + 2);
+        for (const std::uint32_t strip : {0U, half + 1}) add_quads(strip, half, whole_sides + 2);
     }
 
     void add_end(bool is_up) {
-        const std::uint32_t first = next_vertex(), round = sides_ + 1;
-        const double height = is_up ? piece_.top : piece_.bottom;
+        const std::uint32_t first = next_vertex(), round = whole_sides + 1;
+        const double height = is_up ? shape.top : shape.bottom;
         const glm::dvec3 normal(0.0, is_up ? 1.0 : -1.0, 0.0);
         for (const double share : {1.0, inner_ring})
             for (std::uint32_t column = 0; column < round; ++column) {
                 const double angle = angle_of(column);
                 add_vertex(
-                    place(share * bumps_.at(angle, height).length, sine_cosine(angle), height),
-                    normal, static_cast<double>(column) / sides_, rings_at(share));
+                    place(share * bumps.at(angle, height).length, sine_cosine(angle), height),
+                    normal, static_cast<double>(column) / whole_sides, rings_at(share));
             }
-        for (std::uint32_t column = 0; column < sides_; ++column)
-            add_vertex({0.0, height, -piece_.radius}, normal, (column + 0.5) / sides_,
+        for (std::uint32_t column = 0; column < whole_sides; ++column)
+            add_vertex({0.0, height, -shape.radius}, normal, (column + 0.5) / whole_sides,
                        rings_at(0.0));
         const std::uint32_t inner = first + round, middle = inner + round;
-        for (std::uint32_t column = 0; column < sides_; ++column) {
+        for (std::uint32_t column = 0; column < whole_sides; ++column) {
             const std::uint32_t next = column + 1;
             add_end_triangle(is_up, first + column, first + next, inner + next);
             add_end_triangle(is_up, first + column, inner + next, inner + column);
@@ -231,7 +231,7 @@ class SplitPiece : WoodBuilder {
   public:
     SplitPiece(const WoodPiece& piece, int lod, bool textured)
         : WoodBuilder(piece, lod, textured),
-          columns_(sides_ / 2),
+          columns_(whole_sides / 2),
           edge_(angle_of_cosine(1.0 - piece.split / piece.radius)) {}
 
     [[nodiscard]] MeshCount count() const {
@@ -249,8 +249,9 @@ class SplitPiece : WoodBuilder {
         const std::uint32_t face = next_vertex();
         for (std::uint32_t row = 0; row <= rows(); ++row)
             for (std::uint32_t column = 0; column < round; ++column)
-                add_face_vertex(columns_ - column, piece_.top - down(row), {0.0, 0.0, -1.0},
-                                grain_from + grain_width * mirrored_place(down(row) / image_));
+                add_face_vertex(
+                    columns_ - column, shape.top - down(row), {0.0, 0.0, -1.0},
+                    grain_from + grain_width * mirrored_place(down(row) / image_length));
         add_quads(face, columns_, round);
         for (const bool is_up : {true, false}) add_end(is_up);
         return finished();
@@ -266,8 +267,8 @@ class SplitPiece : WoodBuilder {
 
     /// Adds the point where the ray of a column meets the split face.
     void add_face_vertex(std::uint32_t column, double height, const glm::dvec3& normal, double u) {
-        const glm::dvec3 pith(0.0, height, -piece_.radius), left = bark_at(-edge_, height) - pith,
-                                                            right = bark_at(edge_, height) - pith;
+        const glm::dvec3 pith(0.0, height, -shape.radius), left = bark_at(-edge_, height) - pith,
+                                                           right = bark_at(edge_, height) - pith;
         const SineCosine at = sine_cosine(angle_of(column));
         // Of the crossing of the ray with the line from left to right.
         const double distance = (left.z * right.x - left.x * right.z) /
@@ -275,12 +276,12 @@ class SplitPiece : WoodBuilder {
         const glm::dvec3 position = column == 0          ? bark_at(-edge_, height)
                                     : column == columns_ ? bark_at(edge_, height)
                                                          : place(distance, at, height);
-        add_vertex(position, normal, u, rings_at(std::min(distance / piece_.radius, 1.0)));
+        add_vertex(position, normal, u, rings_at(std::min(distance / shape.radius, 1.0)));
     }
 
     void add_end(bool is_up) {
         const std::uint32_t rim = next_vertex(), face = rim + columns_ + 1;
-        const double height = is_up ? piece_.top : piece_.bottom;
+        const double height = is_up ? shape.top : shape.bottom;
         const glm::dvec3 normal(0.0, is_up ? 1.0 : -1.0, 0.0);
         const auto u_of = [&](std::uint32_t column) { return 0.5 + 0.5 * angle_of(column) / pi; };
         for (std::uint32_t column = 0; column <= columns_; ++column)
@@ -324,8 +325,9 @@ MeshCount wood_count(const WoodPiece& piece, int lod) {
 }
 
 Mesh wood_mesh(const WoodPiece& piece, int lod, bool textured) {
-    return with_builder(piece, lod, textured,
-                        [](auto&& builder) { return std::move(builder).take(); });
+    return with_builder(piece, lod, textured, [](auto&& builder) {
+        return std::forward<decltype(builder)>(builder).take();
+    });
 }
 
 }  // namespace sporeprint
