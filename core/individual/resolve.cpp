@@ -404,7 +404,7 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
     }
 }
 
-/// Returns how many times as wide as now the widest stage of any species is.
+/// Returns how many times as wide as now the widest stage of any species is, at least 1.
 double size_left(const std::vector<Source>& sources) {
     const auto width_of = [](const Model& model) {
         const Outline outline = Outline::unproven(silhouette_of(model));
@@ -443,9 +443,8 @@ void resolve_substrate(Individual& individual, const std::vector<Source>& source
         Extent extent{individual.stem_base, individual.stem_base};
         for (const SubCurve* curve : {&individual.outline.hymenium, &individual.outline.cap})
             extent.include(*curve);
-        const double grown = individual.effective.animation == Animation::growth
-                                 ? std::max(size_left(sources), 1.0)
-                                 : 1.0;
+        const double grown =
+            individual.effective.animation == Animation::growth ? size_left(sources) : 1.0;
         individual.trunk_radius = std::max(trunk_by_bracket * grown * extent.radius, least_trunk);
         return;
     }
