@@ -160,7 +160,7 @@ std::optional<WoodPaint> guessed_wood(const MushroomSpec& spec, const Atlas& atl
     }
     for (const MixPart& part : spec.mix)
         if (const AtlasEntry* const entry = atlas.find(part.id))
-            is_bracket = is_bracket || is_lateral(entry->species.facts.form);
+            is_bracket = is_bracket || entry->species.is_lateral();
     const Substrate substrate = params.substrate.value_or(Substrate::beech);
     if (!is_bracket || substrate == Substrate::none) return std::nullopt;
     const int first =

@@ -34,6 +34,9 @@ bool has_cap_on_stem(GrowthForm form) {
         case GrowthForm::jelly:
         case GrowthForm::coral:
         case GrowthForm::antler:
+        case GrowthForm::crust:
+        case GrowthForm::nest:
+        case GrowthForm::cage:
             return false;
     }
     return false;
@@ -57,7 +60,7 @@ void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, co
 
 }  // namespace
 
-Habit habit_of(const Facts& facts) {
+Habit habit_of(const Species& species) {
     // Terms of field guides; the first one recorded is the typical habit.
     struct Word {
         std::string_view text;
@@ -77,9 +80,9 @@ Habit habit_of(const Facts& facts) {
                                                     {"swarm", Habit::troop},
                                                     {"scattered", Habit::troop},
                                                     {"gregarious", Habit::troop}}};
-    return is_lateral(facts.form)
+    return species.is_lateral()
                ? Habit::tier
-               : first_mentioned(facts.habit.view(), words, &Word::habit, Habit::troop);
+               : first_mentioned(species.facts.habit.view(), words, &Word::habit, Habit::troop);
 }
 
 ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
@@ -97,12 +100,13 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
         }
         const Facts& facts = entry->species.facts;
         names ^= stream_of(part.id);
-        traits.lateral = traits.lateral || is_lateral(facts.form);
-        traits.capped = traits.capped && has_cap_on_stem(facts.form);
+        traits.lateral = traits.lateral || entry->species.is_lateral();
+        traits.capped =
+            traits.capped && has_cap_on_stem(facts.form) && !entry->species.is_lateral();
         if (!most || part.weight > most->weight ||
             (part.weight == most->weight && part.id < most->id)) {
             most = &part;
-            traits.habit = habit_of(facts);
+            traits.habit = habit_of(entry->species);
             traits.substrate = wood_of(facts);
         }
     }

@@ -165,7 +165,7 @@ struct ColonySpec {
 };
 
 /// Returns the habit that a species' facts mention first; a troop if they mention none.
-[[nodiscard]] Habit habit_of(const Facts& facts);
+[[nodiscard]] Habit habit_of(const Species& species);
 
 /// The properties of a colony that follow from the species of its mix.
 struct ColonyTraits {

@@ -7,6 +7,7 @@
 
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
+#include "core/geometry/spines.h"
 #include "core/mesh/detail.h"
 
 namespace sporeprint {
@@ -161,10 +162,11 @@ bool is_present(const BranchGraph& graph, const TubeChain& chain) {
     return graph.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
-BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level) {
+BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level, std::uint64_t others) {
     const Resolutions allowed = resolutions_at(level);
-    const std::uint64_t limit =
+    const std::uint64_t all =
         level.lod < farthest_lod ? triangle_limit(level) : std::uint64_t{most_at_farthest};
+    const std::uint64_t limit = all - std::min(others, all / 2);
     BranchPlan plan;
     plan.chains = chains_of(graph);
     // For each node its chain, and its index there.
@@ -210,9 +212,13 @@ BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level) {
     return plan;
 }
 
-MeshCount branched_mesh_count(const BranchGraph& graph, DetailLevel level, bool keep_absent) {
-    const BranchPlan plan = branch_plan(graph, level);
+MeshCount branched_mesh_count(const Individual& individual, DetailLevel level, bool keep_absent) {
+    const BranchGraph& graph = individual.branch_graph;
+    const Detail detail = spine_detail(individual.spines, level);
+    const BranchPlan plan =
+        branch_plan(graph, level, spine_count(individual.spines, detail).triangles);
     MeshCount count = plan.count;
+    count += spine_count(individual.spines, detail, keep_absent);
     if (keep_absent) return count;
     for (const TubeChain& chain : plan.chains)
         if (!is_present(graph, chain)) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/geometry/branch_plan.h"
+#include "core/geometry/spines.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -65,6 +66,14 @@ constexpr std::uint32_t dent_count = 9;
 constexpr double lowest_dent = 0.35, least_dent = 0.7, most_dent = 1.2, least_reach = 0.3,
                  dent_distance = 0.7, dent_depth = 0.08, dent_reach = 1.6, dent_slope = 0.7;
 
+/// Waves of a ruffled segment: their size in its widths, their length in its half widths, and the
+/// largest turn from one ring to the next, beyond which they would alias.
+constexpr double ruffle_size = 0.6, ruffle_length = 3.8, most_ruffle_turn = 1.5;
+
+/// Size of a spine on a branch that has not begun to grow, in that of others; how far spines stand
+/// beside the middle of their branch, in its radii.
+constexpr double least_spine = 0.05, spine_spread = 0.6;
+
 /// Least number of sides of a tube that goes round the disc of the chart; fewer sides would cut its
 /// rings short.
 constexpr int round_sides = 6;
@@ -77,6 +86,54 @@ struct Station {
     double at_fork = 0.0;                         ///< 0..1: closeness to a fork
     double colour = 0.0;  ///< see BranchGraph::Node::from_tip; for a trunk the share of its length
     double few = 0.0;     ///< see BranchGraph::Node::few
+};
+
+/// The waves of the two edges of a flat segment: partly against each other, as of a twisted ribbon,
+/// partly together, as of a cupped leaf.
+class Ruffle {
+  public:
+    /// amount  0..1; phase: of the segment
+    Ruffle(double amount, double phase) : amount_(amount), phase_(phase) {}
+
+    /// Moves on to the next ring of the segment.
+    void advance(const Station& station) {
+        const double width = station.radius * (station.wide - station.thin);
+        size_ = amount_ * ruffle_size * width;
+        if (size_ <= 0.0) return;
+        // The plane of the segment is that of the longest column of its sum of squares.
+        glm::dvec3 aside = station.flat[0];
+        for (int k = 1; k < 3; ++k)
+            if (glm::dot(station.flat[k], station.flat[k]) > glm::dot(aside, aside))
+                aside = station.flat[k];
+        aside = square_to(station.along, aside);
+        aside_ = glm::dot(aside, aside_) < 0.0 ? -aside : aside;
+        square_ = glm::cross(station.along, aside_);
+        if (begun_) {
+            const double turn = std::min(2.0 * pi * glm::distance(station.at, last_) /
+                                             (ruffle_length * station.radius * station.wide),
+                                         most_ruffle_turn);
+            phase_ += turn;
+            turned_ += turn;
+        }
+        // Waves grow from nothing, since a segment begins with the last ring of what bears it.
+        size_ *= std::min(turned_ / most_ruffle_turn, 1.0);
+        last_ = station.at;
+        begun_ = true;
+    }
+
+    /// Returns the displacement of the corner in a direction from the middle of the ring, metres.
+    [[nodiscard]] glm::dvec3 displacement(const glm::dvec3& out) const {
+        if (size_ <= 0.0) return glm::dvec3(0.0);
+        const double across = glm::dot(out, aside_);
+        return size_ *
+               (across * sine(phase_) + 0.6 * (across * across - 0.4) * sine(0.61 * phase_ + 1.0)) *
+               square_;
+    }
+
+  private:
+    double amount_, phase_, turned_ = 0.0, size_ = 0.0;
+    glm::dvec3 aside_{0.0}, square_{0.0}, last_{0.0};
+    bool begun_ = false;
 };
 
 glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
@@ -156,7 +213,9 @@ class TubeBuilder {
   public:
     TubeBuilder(const Individual& individual, DetailLevel level, const SweepOptions& options)
         : graph_(deformed(individual)),
-          plan_(branch_plan(graph_, level)),
+          spine_detail_(spine_detail(individual.spines, level)),
+          plan_(
+              branch_plan(graph_, level, spine_count(individual.spines, spine_detail_).triangles)),
           seed_(individual.effective.seed),
           full_disc_(level < 2),
           options_(options),
@@ -180,8 +239,41 @@ class TubeBuilder {
         return std::move(mesh_);
     }
 
+    // Appends the spines of all species, which hang from the tubes that are drawn.
+    void add_hanging_spines(Mesh& mesh, const std::vector<SpineLayer>& layers) const {
+        for (const SpineLayer& layer : layers) {
+            std::vector<const Reach*> bearing;
+            for (const Reach& reach : reaches_)
+                if (reach.along >= layer.style.from && reach.along <= layer.style.to)
+                    bearing.push_back(&reach);
+            if (bearing.empty()) bearing.push_back(&reaches_.back());
+            // Every stretch of a tube bears as many, so that no spine moves to another as they grow.
+            add_spines(mesh, layer, spine_detail_, seed_, options_.textured, options_.keep_absent,
+                       [&](int number) {
+                           const SpinePlace at = spine_place(number);
+                           const glm::dvec3 down(0.0, -1.0, 0.0);
+                           const double place = at.along * static_cast<double>(bearing.size());
+                           const Reach& one = *bearing[static_cast<std::size_t>(place)];
+                           const double t = place - std::floor(place);
+                           // They begin inside the tube, at its lower side.
+                           const glm::dvec3 aside =
+                               (2.0 * at.round - 1.0) * one.radius * square_to(down, one.across);
+                           return SpineRoot{
+                               one.from + t * (one.to - one.from) + spine_spread * aside, down,
+                               one.along, least_spine + (1.0 - least_spine) * one.presence};
+                       });
+        }
+    }
+
   private:
     using Node = BranchGraph::Node;
+
+    /// A stretch of a drawn tube between two rings.
+    struct Reach {
+        glm::dvec3 from, to, across;
+        double radius, presence;
+        double along;  ///< 0 at the top of a trunk, 1 at a tip
+    };
 
     [[nodiscard]] const Node& node(std::uint32_t i) const { return graph_.nodes[i]; }
 
@@ -274,9 +366,14 @@ class TubeBuilder {
         return {from, to, length * leaving, length * arriving};
     }
 
+    // Returns how flat the segments of a segment are. A tube that stands for several is rounder, since
+    // they lie in several planes.
+    [[nodiscard]] double flatness_of(std::uint32_t i) const {
+        return graph_.flatness / represented_[i];
+    }
+
     // Sets the width and flatness of a cross-section near a fork.
-    void shape(Station& station, double at_fork, double flat) const {
-        const double flatness = graph_.flatness * flat;
+    void shape(Station& station, double at_fork, double flatness) const {
         station.at_fork = at_fork;
         station.wide = (1.0 + graph_.web * at_fork) / std::sqrt(1.0 - flatness);
         station.thin = std::sqrt(1.0 - flatness);
@@ -358,7 +455,7 @@ class TubeBuilder {
         // bent.
         s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
         s.flat = (1.0 - t) * from.flat + t * flat;
-        shape(s, near_end + from.at_fork * (1.0 - smooth_step(0.0, fork_ends, t)), 1.0);
+        shape(s, near_end + from.at_fork * (1.0 - smooth_step(0.0, fork_ends, t)), flatness_of(i));
         s.colour = from.colour + t * (end.from_tip - from.colour);
         s.few = end.few;
         return s;
@@ -393,7 +490,8 @@ class TubeBuilder {
         const double bluntness = 1.0 - (1.0 - graph_.bluntness) / represented_[i];
         const double blunt = bluntness + end.eaten * (1.0 - bluntness);
         const double length = std::max(glm::distance(from.at, end.place), 1e-12);
-        const double round = std::min(longest_round, blunt * tip_radius / length);
+        const double wide = 1.0 / std::sqrt(1.0 - flatness_of(i));
+        const double round = std::min(longest_round, blunt * tip_radius * wide / length);
         std::vector<Station> stations;
         for (int k = 1; k <= rings; ++k) {
             // Rings are denser towards the end.
@@ -446,7 +544,7 @@ class TubeBuilder {
                 fork.radius +
                 graph_.ends(parent) * (std::min(fork.radius, radius_at(parent)) - fork.radius);
             begin.radius = inside_parent * equal * wide;
-            shape(begin, 0.0, 1.0);
+            shape(begin, 0.0, flatness_of(first));
             begin.colour = fork.colour;
             begin.few = node(first).few;
             Station inside = begin;
@@ -467,6 +565,13 @@ class TubeBuilder {
         for (const std::size_t fork : chain.forks) extend_to(chain.nodes[fork]);
         extend_to(chain.nodes.back());
         add_tube(chain, stations, sides);
+        const double presence = node(chain.nodes.back()).presence;
+        for (std::size_t i = chain.root ? 0 : 1; i + 1 < stations.size(); ++i) {
+            const Station &from = stations[i], &to = stations[i + 1];
+            reaches_.push_back({from.at, to.at, glm::cross(from.along, glm::dvec3(0.0, 1.0, 0.0)),
+                                0.5 * (from.radius + to.radius), presence,
+                                1.0 - 0.5 * (from.colour + to.colour)});
+        }
     }
 
     // Returns the stations of a trunk: `own` rings of its own, and others inserted between them.
@@ -485,7 +590,7 @@ class TubeBuilder {
             station.along = unit_or(sample.derivative, top.heading);
             station.radius = low + smooth_step(0.0, 1.0, t) * (radius - low);
             station.colour = t;
-            shape(station, smooth_step(fork_begins, 1.0, t), 0.5 + 0.5 * t);
+            shape(station, smooth_step(fork_begins, 1.0, t), graph_.flatness * (0.5 + 0.5 * t));
             return station;
         };
         const Station ground = at(0.0);
@@ -578,9 +683,11 @@ class TubeBuilder {
                 2.0 * pi * static_cast<double>(j % static_cast<std::size_t>(times)) / sides;
             if (past > 0.0) reach[j] *= cosine(corner) / cosine(past - corner);
         }
+        Ruffle ruffle(strip ? 0.0 : graph_.ruffle, turn);
         for (std::size_t i = 0; i < stations.size(); ++i) {
             const Station& station = stations[i];
             if (i > 0) transport_side(stations[i - 1].along, station.along);
+            ruffle.advance(station);
             const glm::dvec3 third = glm::cross(side_, station.along);
             for (std::size_t j = 0; j < columns; ++j) {
                 const auto [s, c] =
@@ -591,7 +698,8 @@ class TubeBuilder {
                 moved -= glm::dot(moved, station.along) * station.along;
                 outs.push_back(out);
                 const double wide = reach[j] + station.few * (wider - reach[j]);
-                places.push_back(station.at + wide * station.radius * moved);
+                places.push_back(station.at + wide * station.radius * moved +
+                                 ruffle.displacement(out));
             }
         }
         for (std::size_t i = 0; i < stations.size(); ++i)
@@ -655,12 +763,14 @@ class TubeBuilder {
     }
 
     BranchGraph graph_;
+    Detail spine_detail_;
     BranchPlan plan_;
     std::uint32_t seed_;
     bool full_disc_;
     SweepOptions options_;
     std::vector<double> represented_;
     double colour_exponent_ = 1.0;
+    std::vector<Reach> reaches_;
     std::vector<Station> built_;      ///< per node of a tube that has been built
     glm::dvec3 side_{1.0, 0.0, 0.0};  ///< direction of column 0 of the current row
     Mesh mesh_;
@@ -669,7 +779,10 @@ class TubeBuilder {
 }  // namespace
 
 Mesh branched_mesh(const Individual& individual, DetailLevel level, const SweepOptions& options) {
-    return TubeBuilder(individual, level, options).build();
+    TubeBuilder builder(individual, level, options);
+    Mesh mesh = builder.build();
+    builder.add_hanging_spines(mesh, individual.spines);
+    return mesh;
 }
 
 }  // namespace sporeprint

@@ -15,7 +15,7 @@ namespace sporeprint {
 /// Returns the exact counts of branched_mesh() at a level of detail. The vertex count follows
 /// from species and seed alone: no age and no weight changes it. Triangles are counted for segments
 /// that are present or, with `keep_absent`, for all segments, as for vertices.
-[[nodiscard]] MeshCount branched_mesh_count(const BranchGraph& graph, DetailLevel level,
+[[nodiscard]] MeshCount branched_mesh_count(const Individual& individual, DetailLevel level,
                                             bool keep_absent = false);
 
 /// Returns the mesh of a branched individual at a level of detail.
@@ -25,7 +25,8 @@ namespace sporeprint {
 /// remaining ones are widened to represent them.
 ///
 /// options   `stem` is not read
-/// returns   closed pieces, one per tip, which intersect each other only at forks
+/// returns   closed pieces, one per tip, which intersect each other only at forks, and the spines
+///           that hang from them
 /// throws    Impossible ("/deformation/bend_deg") if the bend would make the graph intersect itself
 /// cost      O(vertices)
 [[nodiscard]] Mesh branched_mesh(const Individual& individual, DetailLevel level,

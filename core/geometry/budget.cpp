@@ -12,12 +12,6 @@ namespace sporeprint {
 
 namespace {
 
-MeshCount& operator+=(MeshCount& sum, const MeshCount& more) {
-    sum.vertices += more.vertices;
-    sum.triangles += more.triangles;
-    return sum;
-}
-
 MeshCount body_count(const Individual& individual, DetailLevel level, bool solids) {
     const Detail detail = detail_of(level);
     const WeatheringCount weathered = weathering_count(individual, level);
@@ -52,6 +46,15 @@ bool coarsen(Detail& detail, DetailLevel level) {
     return false;
 }
 
+/// Builds an eighth less of spines and nets, at every level; returns false when no more can be left
+/// out.
+bool drop_free_solids(const Individual& individual, Detail& detail) {
+    if (individual.spines.empty() && individual.receptacles.empty()) return false;
+    if (detail.free_solids <= 0.0) return false;
+    detail.free_solids -= 0.125;
+    return true;
+}
+
 /// Leaves out a further eighth of the patches, the smallest ones; returns false when none is left.
 bool drop_patches(Detail& detail, DetailLevel level) {
     if (level == 0 || level.lod > 1 || detail.patches <= 0.0) return false;
@@ -81,7 +84,8 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     const std::uint64_t limit = triangle_limit(level);
     while (budget.count.triangles > limit &&
            (coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
-            (!solids && drop_patches(budget.ornaments, level))))
+            (!solids && drop_patches(budget.ornaments, level)) ||
+            drop_free_solids(individual, budget.ornaments)))
         budget.count = total();
     return budget;
 }

@@ -236,7 +236,8 @@ Mesh swept_mesh(const Individual& individual, DetailLevel level, const SweepOpti
                         ? outline.rings(CurveName::stem, level)
                         : std::vector<OutlineSample>(options.stem.begin(), options.stem.end()));
     const LowerFace lower(individual, level, budget.solids);
-    body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, level));
+    const std::vector<OutlineSample> flesh = lower.flesh(outline, level);
+    body.hymenium = sweeper.face(Part::hymenium, flesh);
     body.cap = sweeper.face(Part::cap, outline.rings(CurveName::cap, level));
     // A sheet a metre wide would be thinner than its dents on the mesh; no species of the atlas is
     // one.
@@ -257,10 +258,9 @@ Mesh swept_mesh(const Individual& individual, DetailLevel level, const SweepOpti
                                   cuts,
                                   curl,
                                   dents,
+                                  flesh,
                                   individual};
-    add_patches(mesh, individual, context);
-    add_ring(mesh, individual, context);
-    add_sac(mesh, individual, context);
+    add_ornaments(mesh, individual, context);
     if (budget.solids) add_hymenium(mesh, individual, lower, context, budget);
     wrap_round_trunk(mesh, individual.bending_radius());
     return mesh;

@@ -8,6 +8,7 @@
 #include "core/geometry/branch_plan.h"
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
+#include "core/geometry/spines.h"
 #include "core/gltf/glb.h"
 #include "core/grow/collision.h"
 #include "core/grow/growth.h"
@@ -169,9 +170,8 @@ Mesh body_mesh(const Individual& individual, DetailLevel level, const SweepOptio
 }
 
 MeshCount body_count(const Individual& individual, DetailLevel level, bool keep_absent) {
-    return individual.is_branched()
-               ? branched_mesh_count(individual.branch_graph, level, keep_absent)
-               : budget_of(individual, level).count;
+    return individual.is_branched() ? branched_mesh_count(individual, level, keep_absent)
+                                    : budget_of(individual, level).count;
 }
 
 Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
@@ -192,7 +192,9 @@ double outline_error(const Individual& individual, DetailLevel level, double rad
         return radius * (inscribed_error(detail.columns) + inscribed_error(4 * detail.cap_rings));
     }
     const BranchGraph& graph = individual.branch_graph;
-    const BranchPlan plan = branch_plan(graph, level);
+    const BranchPlan plan = branch_plan(
+        graph, level,
+        spine_count(individual.spines, spine_detail(individual.spines, level)).triangles);
     double tips = 0.0;
     for (const std::uint32_t root : graph.roots) tips += graph.nodes[root].tips;
     // Tubes that are left out leave gaps: n tips in a disc are about radius / sqrt(n) apart.

@@ -98,6 +98,12 @@ std::vector<AnatomyRule> anatomy_rules(const MushroomParams& requested) {
         {"/ornaments/volva", is_requested(requested.ornaments.volva),
          [](S s) { return s.has_volva(); }, "has a universal veil that could leave a volva",
          [](S s) { return s.label + " has no universal veil that could leave a volva"; }},
+        {"/ornaments/peridioles", is_requested(requested.ornaments.peridioles),
+         [](S s) { return s.has_peridioles(); }, "is a bird's nest, in which peridioles lie",
+         [](S s) { return s.label + " is no bird's nest; only in them peridioles lie"; }},
+        {"/ornaments/receptacle", is_requested(requested.ornaments.receptacle),
+         [](S s) { return s.has_receptacle(); }, "is a cage fungus, whose receptacle unfolds",
+         [](S s) { return s.label + " is no cage fungus; only their receptacle unfolds"; }},
         {"/weathering/waves", is_requested(requested.weathering.waves),
          [](S s) { return s.has_margin(); }, "has a margin that could wave",
          [](S s) { return s.label + " has no margin that could wave"; }},
@@ -142,6 +148,10 @@ void blend_amounts(Model& model, const std::vector<Source>& sources) {
         model.ornaments.ring);
     set([](S s) { return s.has_volva(); }, [](S s) -> D { return s.now.ornaments.volva; },
         model.ornaments.volva);
+    set([](S s) { return s.has_peridioles(); }, [](S s) -> D { return s.now.ornaments.peridioles; },
+        model.ornaments.peridioles);
+    set([](S s) { return s.has_receptacle(); }, [](S s) -> D { return s.now.ornaments.receptacle; },
+        model.ornaments.receptacle);
     set([](S s) { return s.pattern() == HymeniumPattern::ridges; },
         [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
     set([](S s) { return s.has_cells(); }, [](S s) -> D { return s.now.hymenium.pores_per_mm; },
@@ -217,6 +227,10 @@ void report_effective(MushroomParams& effective, const Model& model,
         effective.ornaments.scales.reset();
     if (none([](const Source& s) { return s.has_ring(); })) effective.ornaments.ring.reset();
     if (none([](const Source& s) { return s.has_volva(); })) effective.ornaments.volva.reset();
+    if (none([](const Source& s) { return s.has_peridioles(); }))
+        effective.ornaments.peridioles.reset();
+    if (none([](const Source& s) { return s.has_receptacle(); }))
+        effective.ornaments.receptacle.reset();
     if (none([](const Source& s) { return s.melts(); })) effective.weathering.deliquescence.reset();
     if (none([](const Source& s) { return s.has_margin(); })) effective.weathering.splits.reset();
     if (none([](const Source& s) { return s.peels(); })) effective.weathering.peel.reset();

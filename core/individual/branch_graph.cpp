@@ -188,6 +188,7 @@ class GraphBuilder {
             style_means_.wander += share.weight * style.wander;
             graph_.foot += share.weight * (style.foot - 1.0);
             graph_.flatness += share.weight * style.flatness;
+            graph_.ruffle += share.weight * style.ruffle;
             graph_.web += share.weight * style.web;
             graph_.bluntness += share.weight * style.bluntness;
         }

@@ -60,7 +60,8 @@ struct BranchGraph {
     double trunk = 0.0;                ///< metres, length of a trunk
     double trunk_radius = 0.0;         ///< metres
     double reach = 0.0;                ///< metres: greatest distance of its segments from the axis
-    double foot = 1.0, flatness = 0.0, web = 0.0, bluntness = 0.0;  ///< see SegmentStyle
+    double foot = 1.0, flatness = 0.0, web = 0.0, ruffle = 0.0,
+           bluntness = 0.0;  ///< see SegmentStyle
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
     [[nodiscard]] bool is_tip(std::uint32_t node) const { return nodes[node].children[0] == none; }

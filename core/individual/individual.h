@@ -36,6 +36,27 @@ struct PatchLayer {
     bool operator==(const PatchLayer&) const = default;
 };
 
+/// The hanging spines of one species.
+struct SpineLayer {
+    SpineStyle style;     ///< metres
+    double weight = 1.0;  ///< of the species in the mix: factor on their size
+    bool operator==(const SpineLayer&) const = default;
+};
+
+/// The peridioles of one species, and its receptacle; both include those that are absent.
+struct PeridioleLayer {
+    PeridioleStyle style;  ///< metres
+    double amount = 0.0;   ///< how many are left: 0..1
+    double weight = 1.0;   ///< of the species in the mix: factor on their size
+    bool operator==(const PeridioleLayer&) const = default;
+};
+struct ReceptacleLayer {
+    ReceptacleStyle style;  ///< metres
+    double amount = 0.0;    ///< how far it has unfolded: 0..1
+    double weight = 1.0;    ///< of the species in the mix: factor on its size
+    bool operator==(const ReceptacleLayer&) const = default;
+};
+
 /// Damage by weathering for geometry: amounts times the weight of the species that can have them,
 /// and which kinds can occur at any age, so that no age changes the number of vertices.
 struct DamageAmounts {
@@ -79,7 +100,10 @@ struct Individual {
     bool has_sac = false;  ///< some species of the mix can have one at some age
     RingStyle ring;        ///< its width includes amounts and weights; metres
     bool has_ring = false;  ///< some species of the mix can have one at some age
-    double waves = 0.0;     ///< of the margin, from the species with a margin only
+    std::vector<SpineLayer> spines;
+    std::vector<PeridioleLayer> peridioles;
+    std::vector<ReceptacleLayer> receptacles;
+    double waves = 0.0;  ///< of the margin, from the species with a margin only
     DamageAmounts damage;
     GillLayout gill_layout;
     /// The gills and ridges of the mesh lie on gill_layout.blades * 2^blade_tiers evenly spaced
@@ -90,15 +114,12 @@ struct Individual {
     /// Returns true for the branched family, false for the swept one.
     [[nodiscard]] bool is_branched() const { return !branch_graph.empty(); }
     /// Returns true for what grows forwards from a wall: brackets.
-    [[nodiscard]] bool grows_from_wall() const { return azimuth.lateral > wall_from; }
+    [[nodiscard]] bool grows_from_wall() const { return azimuth.lateral > Azimuth::wall_from; }
     /// Returns the radius of the trunk round which it is bent, metres; 0 for a flat wall. Of a mix
     /// that is a bracket only in part it is larger than that of the wood.
     [[nodiscard]] double bending_radius() const {
-        return trunk_radius / std::clamp((azimuth.lateral - wall_from) / 0.5, 1e-9, 1.0);
+        return trunk_radius / std::clamp((azimuth.lateral - Azimuth::wall_from) / 0.5, 1e-9, 1.0);
     }
-
-    /// How lateral is what begins to grow from a wall.
-    static constexpr double wall_from = 0.25;
 };
 
 }  // namespace sporeprint

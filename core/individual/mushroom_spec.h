@@ -89,7 +89,9 @@ struct MushroomParams {
         visit(&P::file, file_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});
-        visit(&P::ornaments, Info{.name = "ornaments", .doc = "What is left of the veils."});
+        visit(&P::ornaments, Info{.name = "ornaments",
+                                  .doc = "What is left of the veils and of what formed under "
+                                         "them."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
         visit(&P::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
         visit(

@@ -57,8 +57,7 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const Morp
             if (one.count == 0 || merged[i]) continue;
             const auto alike = [&](const Source& other) {
                 const PatchStyle& two = other.now.*style;
-                return two.count == one.count && two.from == one.from && two.to == one.to &&
-                       two.elongation == one.elongation && two.fray == one.fray;
+                return two.has_places_of(one);
             };
             double weight = 0.0;
             for (std::size_t j = i; j < sources.size(); ++j)
@@ -89,6 +88,44 @@ RingStyle ring_of(const std::vector<Source>& sources, double size) {
 
 SacStyle sac_of(const std::vector<Source>& sources, double size) {
     return blended_shell(sources, &Model::sac, &SacStyle::height, &OrnamentsOf<Plain>::volva, size);
+}
+
+std::vector<SpineLayer> spines_of(const std::vector<Source>& sources, double size) {
+    std::vector<SpineLayer> layers;
+    for (const Source& source : sources) {
+        if (!source.has_spines()) continue;
+        SpineStyle style = source.now.spines;
+        const double scale = source.is_branched() ? size : size / source.size;
+        style.length *= scale;
+        style.width *= scale;
+        layers.push_back({style, source.weight});
+    }
+    return layers;
+}
+
+std::vector<PeridioleLayer> peridioles_of(const std::vector<Source>& sources, double size) {
+    std::vector<PeridioleLayer> layers;
+    for (const Source& source : sources) {
+        if (!source.has_peridioles()) continue;
+        PeridioleStyle style = source.now.peridioles;
+        style.size *= size / source.size;
+        layers.push_back({style, source.now.ornaments.peridioles, source.weight});
+    }
+    return layers;
+}
+
+std::vector<ReceptacleLayer> receptacles_of(const std::vector<Source>& sources, double size) {
+    std::vector<ReceptacleLayer> layers;
+    for (const Source& source : sources) {
+        if (!source.has_receptacle()) continue;
+        ReceptacleStyle style = source.now.receptacle;
+        for (double ReceptacleStyle::*const length :
+             {&ReceptacleStyle::height, &ReceptacleStyle::width, &ReceptacleStyle::base,
+              &ReceptacleStyle::arm})
+            style.*length *= size / source.size;
+        layers.push_back({style, source.now.ornaments.receptacle, source.weight});
+    }
+    return layers;
 }
 
 }  // namespace sporeprint

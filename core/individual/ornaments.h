@@ -1,5 +1,5 @@
-// The ornaments of one individual from those of its species: layers of patches, the ring and the
-// sac.
+// The ornaments of one individual from those of its species: layers of patches, the ring, the
+// sac, peridioles and receptacles.
 #pragma once
 
 #include <vector>
@@ -19,5 +19,17 @@ namespace sporeprint {
 /// means by weight, in which almost absent ones have almost no influence.
 [[nodiscard]] RingStyle ring_of(const std::vector<Source>& sources, double size);
 [[nodiscard]] SacStyle sac_of(const std::vector<Source>& sources, double size);
+
+/// Returns the spines of each species that has them, in metres.
+///
+/// size  that of a swept individual; of a branched one the factor on its species' size
+[[nodiscard]] std::vector<SpineLayer> spines_of(const std::vector<Source>& sources, double size);
+
+/// Returns the peridioles and the receptacle of each species that has them, lengths in metres for an
+/// individual of this size.
+[[nodiscard]] std::vector<PeridioleLayer> peridioles_of(const std::vector<Source>& sources,
+                                                        double size);
+[[nodiscard]] std::vector<ReceptacleLayer> receptacles_of(const std::vector<Source>& sources,
+                                                          double size);
 
 }  // namespace sporeprint

@@ -370,6 +370,7 @@ void resolve_branched(Individual& individual, const MushroomSpec& spec,
     const double bites = requested.weathering.bites.value_or(individual.model.weathering.bites);
     individual.branch_graph = branch_graph_of(shares, own, bites, requested.seed);
     individual.stem_top = individual.branch_graph.trunk;
+    individual.spines = spines_of(sources, own.size);
     if (spec.model) return;
     // Variation bends an individual only as far as its own segments permit.
     DeformationOf<Plain>& deformation = individual.model.deformation;
@@ -389,6 +390,9 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
     individual.layers = layers_of(sources, *individual.set);
     individual.ring = ring_of(sources, individual.size);
     individual.sac = sac_of(sources, individual.size);
+    individual.spines = spines_of(sources, individual.size);
+    individual.peridioles = peridioles_of(sources, individual.size);
+    individual.receptacles = receptacles_of(sources, individual.size);
     for (const Source& source : sources) {
         individual.has_ring = individual.has_ring || source.has_ring();
         individual.has_sac = individual.has_sac || source.has_sac();

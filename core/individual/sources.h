@@ -54,6 +54,9 @@ struct Source {
                            [](const Model* stage) { return stage->sac.height > 0.0; });
     }
     [[nodiscard]] bool has_volva() const { return has_sac() || first().volva.count > 0; }
+    [[nodiscard]] bool has_spines() const { return first().spines.count > 0; }
+    [[nodiscard]] bool has_peridioles() const { return first().peridioles.count > 0; }
+    [[nodiscard]] bool has_receptacle() const { return first().receptacle.meshes > 0; }
     [[nodiscard]] bool melts() const {
         return std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
             return stage->weathering.deliquescence > 0.0;

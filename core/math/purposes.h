@@ -74,6 +74,11 @@ enum Purpose : std::uint32_t {
     colony_patches = 132,  ///< middles of the patches of a troop; slope of the rows of a tier
     wood = 133,            ///< bumps of a piece of wood
     root_flare = 134,      ///< places of the roots of a trunk
+    peridioles = 135,      ///< how each lies in its cup
+    net_cells = 136,       ///< meshes of a receptacle
+    net_arms = 137,        ///< how thick each arm of a receptacle is along its middle
+    spines = 139,          ///< how each spine hangs
+    net_lumps = 138,       ///< how spongy the arms round each mesh are
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -148,6 +153,11 @@ enum Purpose : std::uint32_t {
         case colony_patches:
         case wood:
         case root_flare:
+        case peridioles:
+        case net_cells:
+        case net_arms:
+        case net_lumps:
+        case spines:
             return 1;
     }
     return 0;

@@ -11,6 +11,17 @@ namespace sporeprint {
 /// The size of a mesh or of a part of it.
 struct MeshCount {
     std::uint64_t vertices = 0, triangles = 0;
+
+    constexpr MeshCount& operator+=(const MeshCount& more) {
+        vertices += more.vertices;
+        triangles += more.triangles;
+        return *this;
+    }
+    /// Returns the size of `times` such meshes.
+    [[nodiscard]] constexpr MeshCount times(int times) const {
+        const auto n = static_cast<std::uint64_t>(times);
+        return {n * vertices, n * triangles};
+    }
 };
 
 /// A level of detail: a whole one, or a place between it and the next one in eighths of the way. A
@@ -47,6 +58,9 @@ struct Detail {
     double patches =
         /// share of a layer's warts or scales that is built, largest first; the others are only
         /// painted
+        1.0;
+    double free_solids =
+        /// share of the hanging spines, and of the meshes of a receptacle, that a level builds
         1.0;
 };
 

@@ -37,6 +37,7 @@ struct SegmentStyle {
     double unevenness = 0.3;
     double flatness = 0.0;
     double web = 0.3;
+    double ruffle = 0.0;
     double bluntness = 0.6;
     double unfolding = 1.0;
 
@@ -143,6 +144,11 @@ struct SegmentStyle {
                             .min = 0,
                             .max = 2,
                             .doc = "How much wider a limb is, in that plane, where it forks."});
+        visit(&L::ruffle, Info{.name = "ruffle",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "How far the edges of flat limbs wave and curl to either "
+                                      "side, as of the lobes of a cauliflower fungus."});
         visit(&L::bluntness, Info{.name = "bluntness",
                                   .min = 0,
                                   .max = 1,

@@ -7,6 +7,8 @@
 #include "core/model/branched.h"
 #include "core/model/deformation.h"
 #include "core/model/hymenium.h"
+#include "core/model/receptacle.h"
+#include "core/model/spines.h"
 #include "core/model/surface.h"
 #include "core/model/swept.h"
 #include "core/model/veils.h"
@@ -26,6 +28,9 @@ struct Model {
     PatchStyle volva;
     SacStyle sac;
     RingStyle ring;
+    SpineStyle spines;
+    PeridioleStyle peridioles;
+    ReceptacleStyle receptacle;
     OrnamentsOf<Plain> ornaments;
     WeatheringOf<Plain> weathering;
     Surface surface;
@@ -47,8 +52,14 @@ struct Model {
                      "the mature stem, and stay on the skin where it grows."});
         visit(&Model::sac, Info{.name = "sac", .doc = "A sac round the base of the stem."});
         visit(&Model::ring, Info{.name = "ring", .doc = "Ring on the stem."});
-        visit(&Model::ornaments,
-              Info{.name = "ornaments", .doc = "How much is left of the veils; glow."});
+        visit(&Model::spines, Info{.name = "spines", .doc = "Hanging spines of tooth fungi."});
+        visit(&Model::peridioles,
+              Info{.name = "peridioles", .doc = "Packets of spores in the cup of a bird's nest."});
+        visit(&Model::receptacle,
+              Info{.name = "receptacle", .doc = "The net that a cage fungus unfolds."});
+        visit(&Model::ornaments, Info{.name = "ornaments",
+                                      .doc = "How much is left of the veils, and of "
+                                             "what forms under them; glow."});
         visit(&Model::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
         visit(&Model::surface, Info{.name = "surface", .doc = "What is painted."});
         visit(&Model::material, Info{.name = "material", .doc = "Slime, velvet and glow."});

@@ -1,6 +1,8 @@
 #include "core/model/species.h"
 
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 namespace sporeprint {
 
@@ -30,6 +32,17 @@ class StageCheck {
         check_places(first.warts, model.warts, "/warts");
         check_places(first.scales, model.scales, "/scales");
         check_places(first.volva, model.volva, "/volva");
+        if (first.spines.count != model.spines.count || first.spines.from != model.spines.from ||
+            first.spines.to != model.spines.to)
+            add("/spines", "count, from and to are those of the first stage");
+        if (first.peridioles.count != model.peridioles.count)
+            add("/peridioles/count",
+                "every stage has as many as the first; how many are left is "
+                "ornaments.peridioles");
+        if (first.receptacle.meshes != model.receptacle.meshes)
+            add("/receptacle/meshes",
+                "every stage has as many as the first; how far it has "
+                "unfolded is ornaments.receptacle");
     }
 
   private:
@@ -59,8 +72,7 @@ class StageCheck {
 
     // Places are drawn once per individual, so their parameters must be equal in all stages.
     void check_places(const PatchStyle& first, const PatchStyle& stage, const char* member) {
-        if (first.count != stage.count || first.from != stage.from || first.to != stage.to ||
-            first.elongation != stage.elongation || first.fray != stage.fray)
+        if (!stage.has_places_of(first))
             add(member, "count, from, to, elongation and fray are those of the first stage");
     }
 
@@ -69,6 +81,13 @@ class StageCheck {
 };
 
 }  // namespace
+
+bool Species::is_lateral() const {
+    return std::any_of(stages.begin(), stages.end(), [](const Stage& stage) {
+        const auto* swept = std::get_if<Swept>(&stage.model.shape);
+        return swept && swept->azimuth.lateral > Azimuth::wall_from;
+    });
+}
 
 void Species::check(const std::string& path, std::vector<Problem>& problems) const {
     if (const std::string message = invalid_id_message(id); !message.empty())

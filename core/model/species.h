@@ -22,7 +22,10 @@ enum class GrowthForm {
     jelly,
     stinkhorn,
     coral,
-    antler
+    antler,
+    crust,
+    nest,
+    cage
 };
 
 constexpr const char* name(GrowthForm form) {
@@ -57,13 +60,14 @@ constexpr const char* name(GrowthForm form) {
             return "coral";
         case GrowthForm::antler:
             return "antler";
+        case GrowthForm::crust:
+            return "crust";
+        case GrowthForm::nest:
+            return "nest";
+        case GrowthForm::cage:
+            return "cage";
     }
     return nullptr;
-}
-
-/// Returns true for forms that grow forwards from a wall.
-constexpr bool is_lateral(GrowthForm form) {
-    return form == GrowthForm::bracket || form == GrowthForm::shelving_agaric;
 }
 
 /// Recorded facts of a species. Sizes are those of maturity (age 0.6).
@@ -213,6 +217,8 @@ struct Species {
                                      .doc = "Growth stages by age; every stage has as many control "
                                             "points on each sub-curve."});
     }
+    /// Returns true for what grows forwards from a wall.
+    [[nodiscard]] bool is_lateral() const;
     void check(const std::string& path,
                std::vector<Problem>& problems) const;  // core/model/species.cpp
     bool operator==(const Species&) const = default;

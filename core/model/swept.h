@@ -102,6 +102,9 @@ struct AxisPoint {
 /// The dependence of the radius on the angle; with all amounts 0 the shape is a surface of
 /// revolution. The front is +z. "Widest radius" is that of the outline.
 struct Azimuth {
+    /// How lateral is what begins to grow from a wall.
+    static constexpr double wall_from = 0.25;
+
     double lateral = 0.0;
     double fan_deg = 90.0;
     double width = 1.0;

@@ -57,6 +57,12 @@ struct PatchStyle {
                            .max = 1,
                            .doc = "Where on the meridian the pieces end; 1 is the margin."});
     }
+    /// Returns true if another style has its patches at the same places, in the same kind of
+    /// outline; sizes may differ.
+    [[nodiscard]] constexpr bool has_places_of(const PatchStyle& other) const {
+        return count == other.count && from == other.from && to == other.to &&
+               elongation == other.elongation && fray == other.fray;
+    }
     bool operator==(const PatchStyle&) const = default;
 };
 
@@ -165,6 +171,8 @@ struct OrnamentsOf {
     M<double> scales{};
     M<double> ring{};
     M<double> volva = preset<M>(1.0);
+    M<double> peridioles = preset<M>(1.0);
+    M<double> receptacle = preset<M>(1.0);
     M<double> glow{};
 
     static constexpr void fields(auto visit) {
@@ -188,6 +196,16 @@ struct OrnamentsOf {
                    .max = 1,
                    .doc = "How much of the universal veil is left at the base of the stem: a sac "
                           "round it, or scales on the bulb."});
+        visit(&O::peridioles, Info{.name = "peridioles",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How many peridioles are left in a bird's nest; rain "
+                                          "splashes them out."});
+        visit(&O::receptacle, Info{.name = "receptacle",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How far the net of a cage fungus has unfolded out of "
+                                          "its egg."});
         visit(&O::glow, Info{.name = "glow",
                              .min = 0,
                              .max = 1,

@@ -148,9 +148,7 @@ void add_merged_patches(std::span<const PaintParams* const> paintings,
         double left = 0.0, weight = 0.0;
         for (std::size_t j = i; j < paintings.size(); ++j) {
             const PatchStyle& two = paintings[j]->*style;
-            if (two.count != one.count || two.from != one.from || two.to != one.to ||
-                two.elongation != one.elongation || two.fray != one.fray)
-                continue;
+            if (!two.has_places_of(one)) continue;
             done[j] = true;
             if (!paintings[j]->surface.cap.image.empty()) continue;  // uploaded, not painted
             weight += weights[j];

@@ -37,15 +37,19 @@ constexpr std::array recorded = {
     Recorded{"amanita_phalloides", {4, 20}, {5, 17}, wagner},
     Recorded{"armillaria_mellea", {3, 15}, {5, 21.5}, wagner},
     Recorded{"artomyces_pyxidatus", {2, 10}, {4, 13}, "mushroomexpert.com artomyces_pyxidatus"},
+    Recorded{"auricularia_auricula_judae", {2, 12}, {0.6, 3}, "uoguelph.ca gbarron auricula"},
     Recorded{"boletus_edulis", {5, 30}, {3, 31}, wagner},
     Recorded{"cantharellus_cibarius", {2, 11}, {2, 10}, wagner},
+    Recorded{"clathrus_ruber", {4, 10}, {5, 20}, phillips},
     Recorded{"clavariadelphus_pistillaris", {0, 0}, {7, 30}, wagner},
     Recorded{"coprinellus_disseminatus", {0.5, 2}, {1.5, 4.8}, wagner},
     Recorded{"coprinopsis_atramentaria", {3, 12}, {5, 19}, wagner},
     Recorded{"coprinus_comatus", {2.5, 7}, {8, 35}, wagner},
+    Recorded{"cyathus_striatus", {0.4, 1.5}, {0.5, 1.5}, "connecticutwilderness.com cyathus"},
     Recorded{"disciotis_venosa", {3, 21}, {0.5, 6}, "bib.ge/soko"},
     Recorded{"fomes_fomentarius", {5, 50}, {2, 25}, wagner},
     Recorded{"geastrum_triplex", {5, 15}, {2, 8}, phillips},
+    Recorded{"hericium_erinaceus", {5, 40}, {5, 40}, "jungledragon.com 5126"},
     Recorded{"hydnum_repandum", {3, 25}, {2, 11.5}, wagner},
     Recorded{"hygrocybe_coccinea", {2, 5}, {3, 7}, wagner},
     Recorded{"hygrocybe_conica", {1.5, 10}, {3, 12}, wagner},
@@ -68,6 +72,8 @@ constexpr std::array recorded = {
     Recorded{"ramaria_formosa", {3, 15}, {7, 30}, phillips},
     Recorded{"russula_emetica", {3, 10}, {4, 10.5}, wagner},
     Recorded{"russula_vinosa", {5, 12}, {4, 9}, "cs.wikipedia, Holubinka tečkovaná"},
+    Recorded{"sarcoscypha_austriaca", {1, 7}, {1, 5.5}, phillips},
+    Recorded{"stereum_hirsutum", {2, 10}, {0.1, 4}, phillips},
     Recorded{"trametes_versicolor", {2, 10}, {0.1, 6}, wagner},
     Recorded{"tremella_mesenterica", {2, 10}, {1, 4}, phillips},
     Recorded{"xylaria_hypoxylon", {0, 0}, {3, 8}, "en.wikipedia Xylaria_hypoxylon"},
@@ -103,7 +109,8 @@ bool uses_chart(const glm::vec2& uv, Part part) {
 }
 
 /// Returns the cap's width and the height of its top, from the vertices that use the charts of its
-/// faces: no ring, volva, bulb, wart or bend. The rays of an earthstar are faces too. A fruit body
+/// faces or are those of a receptacle: no ring, volva, bulb, wart or bend. The rays of an earthstar
+/// are faces too. A fruit body
 /// on a wall has its height from its lowest point, not from the ground.
 Measured measure(MushroomSpec order) {
     order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
@@ -113,7 +120,8 @@ Measured measure(MushroomSpec order) {
     glm::vec3 low(1e9F), high(-1e9F);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec2 uv = mesh.texture_coordinates[i];
-        if (!uses_chart(uv, Part::cap) && !uses_chart(uv, Part::hymenium)) continue;
+        const bool is_net = !individual.receptacles.empty() && uses_chart(uv, Part::veil);
+        if (!is_net && !uses_chart(uv, Part::cap) && !uses_chart(uv, Part::hymenium)) continue;
         low = glm::min(low, mesh.positions[i]);
         high = glm::max(high, mesh.positions[i]);
     }

@@ -16,7 +16,7 @@ ColonySpec colony_of(const std::string& id) {
     return spec;
 }
 
-Habit recorded(const char* id) { return habit_of(atlas().find(id)->species.facts); }
+Habit recorded(const char* id) { return habit_of(atlas().find(id)->species); }
 
 TEST(ColonySpec, TheHabitIsTheOneRecordedFirst) {
     EXPECT_EQ(recorded("armillaria_mellea"), Habit::tuft) << "dense tufts";
@@ -29,7 +29,7 @@ TEST(ColonySpec, TheHabitIsTheOneRecordedFirst) {
     EXPECT_EQ(recorded("fomes_fomentarius"), Habit::tier) << "several on one trunk";
     EXPECT_EQ(recorded("tremella_mesenterica"), Habit::tier) << "several on a branch";
     EXPECT_EQ(recorded("pleurotus_ostreatus"), Habit::tier);
-    Facts unsaid;
+    const Species unsaid;
     EXPECT_EQ(habit_of(unsaid), Habit::troop);
 }
 

@@ -52,14 +52,14 @@ TEST(Branches, KeepTheTriangleLimitAndAreCountedInAdvance) {
             const std::uint32_t seed = random.bits();
             const MushroomSpec order = textured(mix_of(mix, age, seed, lod));
             const Individual individual = resolved(order);
-            const MeshCount count = branched_mesh_count(individual.branch_graph, lod);
+            const MeshCount count = branched_mesh_count(individual, lod);
             EXPECT_LE(count.triangles, most_triangles[static_cast<std::size_t>(lod)]);
             EXPECT_GT(count.triangles, 0U);
             const Mesh mesh = branched_mesh(individual, lod);
             EXPECT_EQ(mesh.positions.size(), count.vertices) << text_of(mix);
             EXPECT_EQ(mesh.triangles(), count.triangles) << text_of(mix);
             const Mesh whole = branched_mesh(individual, lod, {.keep_absent = true});
-            const MeshCount most = branched_mesh_count(individual.branch_graph, lod, true);
+            const MeshCount most = branched_mesh_count(individual, lod, true);
             EXPECT_EQ(whole.positions.size(), most.vertices) << text_of(mix);
             EXPECT_EQ(whole.triangles(), most.triangles) << text_of(mix);
         }
@@ -100,6 +100,53 @@ TEST(Branches, EveryDeformationIsValidOrRefusedByName) {
             expect_valid(mesh);
         }
     EXPECT_GT(bent, 0);
+}
+
+/// Returns a coral of flat segments with ruffled edges, from which spines hang.
+MushroomSpec frilled(double ruffle, int spines, int lod) {
+    MushroomSpec order = order_of("ramaria_formosa", 0.6, 5, lod);
+    Model model = atlas().find("ramaria_formosa")->species.stages[2].model;
+    auto& segments = std::get<Branched>(model.shape).segments;
+    segments.flatness = 0.85;
+    segments.ruffle = ruffle;
+    model.spines.count = spines;
+    model.spines.length = 0.01;
+    model.spines.droop = 1.0;
+    order.mix.clear();
+    order.model = model;
+    return order;
+}
+
+TEST(Branches, RuffledSegmentsAndSpinesAreClosedAndCountedInAdvance) {
+    for (int lod = 0; lod < 4; ++lod)
+        for (const double ruffle : {0.0, 0.4, 1.0}) {
+            const MushroomSpec order = frilled(ruffle, 600, lod);
+            const Mesh mesh = mesh_of(order);
+            expect_valid(mesh);
+            const MeshCount count = branched_mesh_count(resolved(order), lod);
+            EXPECT_EQ(mesh.positions.size(), count.vertices) << lod << ' ' << ruffle;
+            EXPECT_EQ(mesh.triangles(), count.triangles) << lod << ' ' << ruffle;
+            EXPECT_LE(count.triangles, most_triangles[static_cast<std::size_t>(lod)]);
+        }
+}
+
+TEST(Branches, SpinesHangBelowTheirSegments) {
+    const Mesh bare = mesh_of(frilled(0.0, 0, 0)), spiny = mesh_of(frilled(0.0, 400, 0));
+    EXPECT_EQ(pieces(spiny).size(), pieces(bare).size() + 400);
+    // They make nothing higher, and the lowest segments deeper by at most their length and width.
+    EXPECT_EQ(bounds(spiny).max.y, bounds(bare).max.y);
+    EXPECT_LE(bounds(spiny).min.y, bounds(bare).min.y);
+    EXPECT_GT(bounds(spiny).min.y, bounds(bare).min.y - 0.014f);
+}
+
+TEST(Branches, ARuffleMovesEdgesAndNotTheMiddleOfSegments) {
+    const Mesh plain = mesh_of(frilled(0.0, 0, 0)), ruffled = mesh_of(frilled(1.0, 0, 0));
+    ASSERT_EQ(plain.positions.size(), ruffled.positions.size());
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < plain.positions.size(); ++i)
+        moved += glm::distance(plain.positions[i], ruffled.positions[i]) > 1e-5f ? 1 : 0;
+    EXPECT_GT(moved, plain.positions.size() / 4);
+    EXPECT_NEAR(volume(ruffled) / volume(plain), 1.0, 0.25);
 }
 
 TEST(Branches, ParametersOfOtherFamiliesAreRefusedByName) {

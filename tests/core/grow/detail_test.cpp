@@ -83,6 +83,8 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
     for (const double age : std::span(ages).first(effort(4, 1, 4))) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
         std::vector<std::array<MeanColour, 2>> means(levels.size());
+        const bool is_netted =
+            atlas().find(GetParam())->species.stages.front().model.receptacle.meshes > 0;
         for (std::size_t k = 0; k < levels.size(); ++k)
             for (const ViewDirection& view : views) {
                 const ImagePlane canvas = canvas_of(levels[0].mesh, 160);
@@ -98,7 +100,8 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
         for (std::size_t k = 0; k + 1 < levels.size(); ++k)
             for (std::size_t p = 0; p < parts.size(); ++p) {
                 // A part that is hardly visible, such as the stem of a cup, has no colour to
-                // compare.
+                // compare; of the cup under a net another part is seen through other meshes.
+                if (is_netted) continue;
                 if (std::min(means[k][p].count(), means[k + 1][p].count()) < 400) continue;
                 EXPECT_LT(difference(means[k][p].mean(), means[k + 1][p].mean()), 3.0)
                     << "age " << age << ", level " << k << " and the next, "

@@ -84,6 +84,8 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
                                          "/ornaments/scales",
                                          "/ornaments/ring",
                                          "/ornaments/volva",
+                                         "/ornaments/peridioles",
+                                         "/ornaments/receptacle",
                                          "/weathering/waves",
                                          "/weathering/splits",
                                          "/weathering/peel",

@@ -1,0 +1,46 @@
+// Closed solids made of a grid of corners: rows from a base to a tip or round a loop.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/mesh/detail.h"
+#include "core/mesh/mesh.h"
+#include "core/surface/charts.h"
+
+namespace sporeprint {
+
+/// The grid of a closed solid: rows from its base to its tip, columns round it, without the first
+/// one repeated.
+struct SolidGrid {
+    int rows = 0, columns = 0;
+    /// True if the last row meets the first (a ring); otherwise it is one point, and a polygon
+    /// closes the base.
+    bool loops = false;
+
+    /// Returns the exact counts of what append() appends.
+    [[nodiscard]] MeshCount count() const {
+        const auto high = static_cast<std::uint64_t>(rows),
+                   wide = static_cast<std::uint64_t>(columns);
+        if (high == 0 || wide == 0) return {};
+        if (loops) return {high * (wide + 1), 2 * high * wide};
+        return {high * (wide + 1) + wide, 2 * (high - 1) * wide - 2};
+    }
+};
+
+/// A closed solid made of a grid of corners, the first column repeated.
+struct GridSolid : SolidGrid {
+    Part part = Part::veil;           ///< whose strip paints it
+    std::vector<glm::dvec3> corners;  ///< [row][column]
+    std::vector<glm::dvec3> normals;  ///< computed by append()
+};
+
+/// Appends a solid, painted by the strip of its part: round it along the columns, from its base to
+/// its tip (or to the middle row of a loop) along the rows. Normals are area-weighted.
+///
+/// fallback  normal where none can be computed, as of a solid that is a point
+/// drawn     false appends the vertices alone
+void append(Mesh& mesh, GridSolid& solid, const glm::dvec3& fallback, bool textured, bool drawn);
+
+}  // namespace sporeprint

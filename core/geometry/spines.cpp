@@ -1,0 +1,223 @@
+#include "core/geometry/spines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/geometry/budget.h"
+#include "core/geometry/grid_solid.h"
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/surface/charts.h"
+
+namespace sporeprint {
+
+namespace {
+
+// No source or measurement is recorded for the values down to `taper`.
+
+/// How far a spine stands out before it hangs, in its own lengths: at least, and more the less it
+/// droops.
+constexpr double least_stand = 0.15, stand = 0.25;
+
+/// Largest deviation of a spine from its direction.
+constexpr double astray = 0.12;
+
+/// Depth of its base in the body, in its own widths.
+constexpr double sunk = 0.6;
+
+/// How much slimmer than a cone it is: the exponent of its radius over the distance from the tip.
+constexpr double taper = 0.75;
+
+/// Resolution by the columns of a level of detail, and the most spines of a layer there.
+struct Resolution {
+    int least_columns, rows, sides, most;
+};
+constexpr std::array<Resolution, 5> resolutions = {
+    {{64, 3, 3, 4000}, {48, 3, 3, 1000}, {28, 2, 3, 570}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
+
+/// The largest factor on the width of a spine that stands for several.
+constexpr double most_wide = 2.5;
+
+const Resolution& resolution_of(const Detail& detail) {
+    return *std::find_if(resolutions.begin(), resolutions.end(), [&](const Resolution& one) {
+        return detail.columns >= one.least_columns;
+    });
+}
+
+/// Returns how many spines of a layer a level builds: the first ones of the sequence.
+int built(const SpineLayer& layer, const Detail& detail) {
+    const int most = std::min(layer.style.count, resolution_of(detail).most);
+    return static_cast<int>(std::floor(most * detail.free_solids + 0.5));
+}
+
+bool is_present(const SpineLayer& layer) { return layer.weight * layer.style.length > 0.0; }
+
+/// Radius and length of the outline by the share of its meridian, for places of equal density.
+class Meridian {
+  public:
+    /// from, to  0 at the stem, 1 at the margin, 2 at the apex
+    Meridian(const Outline& outline, double from, double to) : from_(from), to_(to) {
+        const double step = (to - from) / samples;
+        for (int i = 0; i < samples; ++i) {
+            const double share = from + (i + 0.5) * step;
+            const bool on_cap = share > 1.0;
+            const SubCurve& curve = on_cap ? outline.cap : outline.hymenium;
+            const double area = curve.at(on_cap ? share - 1.0 : share).r * curve.length();
+            areas_[static_cast<std::size_t>(i) + 1] = areas_[static_cast<std::size_t>(i)] + area;
+        }
+    }
+    /// Returns the share of the meridian below which this share of the area lies.
+    [[nodiscard]] double at(double share) const {
+        const double area = share * areas_.back();
+        std::size_t k = 0;
+        while (k + 1 < samples && areas_[k + 1] < area) ++k;
+        const double step = areas_[k + 1] - areas_[k];
+        const double within = step > 0.0 ? std::clamp((area - areas_[k]) / step, 0.0, 1.0) : 0.5;
+        return from_ + (to_ - from_) * (static_cast<double>(k) + within) / samples;
+    }
+
+    /// Returns 0 where spines begin on the meridian, 1 where they end.
+    [[nodiscard]] double within(double share) const {
+        return to_ > from_ ? (share - from_) / (to_ - from_) : 0.0;
+    }
+
+  private:
+    static constexpr int samples = 96;
+    double from_, to_;
+    std::array<double, samples + 1> areas_{};
+};
+
+/// Builds one spine: rows of rings along a curve from its root to its tip.
+void build_spine(GridSolid& solid, const SpineRoot& root, double length, double width,
+                 const SpineStyle& style, Random& random) {
+    glm::dvec3 off(0.0);
+    off.x = astray * random.symmetric();
+    off.y = astray * random.symmetric();
+    off.z = astray * random.symmetric();
+    const double turned = random.uniform(0.0, 2.0 * pi);
+    const glm::dvec3 down(0.0, -1.0, 0.0);
+    glm::dvec3 hangs =
+        unit_or((1.0 - style.droop) * root.outwards + style.droop * down + off, down);
+    // Where the surface faces upwards a spine lies on it instead of hanging through the body.
+    const double inwards = std::min(glm::dot(hangs, root.outwards), 0.0);
+    hangs = unit_or(hangs - inwards * root.outwards, root.outwards);
+    const glm::dvec3 start = root.place - sunk * width * root.outwards;
+    const glm::dvec3 bend =
+        root.place + length * (least_stand + stand * (1.0 - style.droop)) * root.outwards;
+    const glm::dvec3 tip = bend + length * hangs;
+    solid.corners.clear();
+    glm::dvec3 side = square_to(root.outwards, glm::dvec3(0.36, 0.48, 0.8));
+    for (int i = 0; i < solid.rows; ++i) {
+        const double t = static_cast<double>(i) / (solid.rows - 1);
+        // A quadratic curve that leaves the surface at a right angle.
+        const glm::dvec3 centre =
+            (1.0 - t) * (1.0 - t) * start + 2.0 * t * (1.0 - t) * bend + t * t * tip;
+        const glm::dvec3 along = unit_or((1.0 - t) * (bend - start) + t * (tip - bend), down);
+        side = square_to(along, side);
+        const glm::dvec3 third = glm::cross(along, side);
+        const double radius = t < 1.0 ? 0.5 * width * power(1.0 - t, taper) : 0.0;
+        for (int j = 0; j <= solid.columns; ++j) {
+            const SineCosine turn =
+                sine_cosine(turned + 2.0 * pi * (j % solid.columns) / solid.columns);
+            solid.corners.push_back(centre + radius * (turn.cosine * side + turn.sine * third));
+        }
+    }
+}
+
+}  // namespace
+
+SpinePlace spine_place(int number) {
+    // The additive sequence of the plastic constant fills the square evenly at every length.
+    const double along = 0.5 + 0.7548776662466927 * number,
+                 round = 0.5 + 0.5698402909980532 * number;
+    return {along - std::floor(along), round - std::floor(round)};
+}
+
+MeshCount spine_count(const std::vector<SpineLayer>& layers, const Detail& detail,
+                      bool keep_absent) {
+    const Resolution& resolution = resolution_of(detail);
+    MeshCount sum;
+    for (const SpineLayer& layer : layers) {
+        MeshCount all =
+            SolidGrid{resolution.rows, resolution.sides, false}.count().times(built(layer, detail));
+        if (!keep_absent && !is_present(layer)) all.triangles = 0;
+        sum += all;
+    }
+    return sum;
+}
+
+Detail spine_detail(const std::vector<SpineLayer>& layers, DetailLevel level) {
+    Detail detail = detail_of(level);
+    // From afar the branches need all triangles for their outline.
+    if (level.nearest() >= 2) detail.free_solids = 0.0;
+    while (detail.free_solids > 0.0 &&
+           spine_count(layers, detail).triangles > triangle_limit(level) / 2)
+        detail.free_solids -= 0.125;
+    return detail;
+}
+
+void add_spines(Mesh& mesh, const SpineLayer& layer, const Detail& detail, std::uint32_t seed,
+                bool textured, bool keep_absent, const std::function<SpineRoot(int)>& root_of) {
+    const Resolution& resolution = resolution_of(detail);
+    GridSolid solid{{resolution.rows, resolution.sides, false}, Part::blade, {}, {}};
+    const SpineStyle& style = layer.style;
+    const int count = built(layer, detail);
+    if (count == 0) return;
+    const double wider = std::min(std::sqrt(static_cast<double>(style.count) / count), most_wide);
+    for (int k = 0; k < count; ++k) {
+        Random random(seed, purposes::spines, static_cast<std::uint32_t>(k));
+        // Coarse levels build the first spines, so these are the longest.
+        const double shorter = 1.0 - style.unevenness * k / style.count;
+        const double thinner = 1.0 - 0.5 * style.unevenness * random.uniform();
+        const SpineRoot root = root_of(k);
+        const double scale = layer.weight * root.grown;
+        const double reach = 1.0 - style.shortening * root.along;
+        build_spine(solid, root, scale * shorter * reach * style.length,
+                    scale * thinner * wider * style.width, style, random);
+        append(mesh, solid, root.outwards, textured, is_present(layer) || keep_absent);
+    }
+}
+
+void add_spines(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
+    const Detail whole = detail_of(context.level);
+    const AxisStation station = context.deformer.frozen_station(context.deformer.top());
+    const auto upper = context.outline.rings(CurveName::cap, context.level);
+    for (const SpineLayer& layer : individual.spines) {
+        // A form without a lower face bears its spines on the cap alone.
+        const double least = context.flesh.empty() ? 1.0 : 0.0;
+        const Meridian meridian(context.outline, std::max(layer.style.from, least),
+                                std::max(layer.style.to, least));
+        add_spines(
+            mesh, layer, context.detail, context.seed, context.textured, context.keep_absent,
+            [&](int k) {
+                const SpinePlace at = spine_place(k);
+                const double share = meridian.at(at.along);
+                const bool on_cap = share > 1.0;
+                const double theta = 2.0 * pi * at.round;
+                // Where the margin is cut, spines move inwards with the surface.
+                const double cut = on_cap ? 1.0 - context.cuts.cap(2.0 - share, theta)
+                                          : context.cuts.lower(share, theta);
+                SurfacePoint point = context.rest_surface.meshed(
+                    on_cap ? Part::cap : Part::hymenium, on_cap ? upper : context.flesh,
+                    whole.columns, cut, theta);
+                if (on_cap)
+                    point.position += context.dents.cap(2.0 - share, theta) *
+                                      unit_or(glm::cross(point.meridian, point.azimuth),
+                                              glm::dvec3(0.0, 1.0, 0.0));
+                context.deformer.apply({&point, 1}, station);
+                if (!context.curl.none())
+                    point.position += context.curl.moved(on_cap, on_cap ? 1.0 - cut : cut, theta);
+                return SpineRoot{
+                    point.position,
+                    unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, -1.0, 0.0)),
+                    meridian.within(share)};
+            });
+    }
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,66 @@
+// The hanging spines of tooth fungi.
+#pragma once
+
+#include "core/params/describe.h"
+
+namespace sporeprint {
+
+/// Long spines that hang from a cushion or from branches (Hericium): solids at every level of
+/// detail, painted as the hymenium that they are. The short teeth of a hedgehog's lower face are a
+/// pattern of the hymenium instead.
+struct SpineStyle {
+    int count = 0;
+    double length = 0.01;
+    double width = 0.0008;
+    double from = 0.0;
+    double to = 1.0;
+    double droop = 0.8;
+    double unevenness = 0.4;
+    double shortening = 0.0;
+
+    static constexpr void fields(auto visit) {
+        using S = SpineStyle;
+        visit(&S::count, Info{.name = "count",
+                              .min = 0,
+                              .max = 4000,
+                              .doc = "Spines at level of detail 0; coarser ones have fewer and "
+                                     "thicker ones."});
+        visit(&S::length, Info{.name = "length",
+                               .unit = "m",
+                               .min = 0,
+                               .max = 0.2,
+                               .doc = "Length of the longest spines."});
+        visit(&S::width, Info{.name = "width",
+                              .unit = "m",
+                              .min = 0.00005,
+                              .max = 0.02,
+                              .doc = "Diameter of a spine at its base."});
+        visit(&S::from, Info{.name = "from",
+                             .min = 0,
+                             .max = 2,
+                             .doc = "Where on the meridian spines begin: 0 at the stem, 1 at the "
+                                    "margin, 2 at the apex. Of corals: 0 at the lowest fork, 1 at "
+                                    "the tips."});
+        visit(&S::to, Info{.name = "to",
+                           .min = 0,
+                           .max = 2,
+                           .doc = "Where on the meridian spines end, in the same measure."});
+        visit(&S::droop, Info{.name = "droop",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "0 stands square to the surface, 1 hangs straight down."});
+        visit(&S::unevenness, Info{.name = "unevenness",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How unlike spines are in length."});
+        visit(&S::shortening,
+              Info{.name = "shortening",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How much shorter spines become towards `to`, as the felt "
+                          "on top of a cushion is."});
+    }
+    bool operator==(const SpineStyle&) const = default;
+};
+
+}  // namespace sporeprint

@@ -1,0 +1,112 @@
+#include "core/geometry/spines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "core/geometry/budget.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint::geometry_spines_test {
+namespace {
+
+SpineLayer layer_of(int count, double length, double droop) {
+    SpineStyle style;
+    style.count = count;
+    style.length = length;
+    style.width = 0.1 * length + 1e-6;
+    style.droop = droop;
+    style.unevenness = 0.0;
+    return {style, 1.0};
+}
+
+Mesh spines(const SpineLayer& layer, const glm::dvec3& outwards, int lod = 0) {
+    Mesh mesh;
+    add_spines(mesh, layer, detail_of(lod), 7, false, false, [&](int k) {
+        return SpineRoot{glm::dvec3(0.1 * k, 0.0, 0.0), outwards};
+    });
+    return mesh;
+}
+
+TEST(Spines, PlacesAreEvenHoweverManyAreUsed) {
+    int left = 0, low = 0, both = 0;
+    for (int k = 0; k < 3000; ++k) {
+        const SpinePlace at = spine_place(k);
+        ASSERT_GE(at.along, 0.0);
+        ASSERT_LT(at.along, 1.0);
+        ASSERT_GE(at.round, 0.0);
+        ASSERT_LT(at.round, 1.0);
+        left += at.along < 0.5 ? 1 : 0;
+        low += at.round < 0.5 ? 1 : 0;
+        both += at.along < 0.5 && at.round < 0.5 ? 1 : 0;
+        EXPECT_NEAR(left, 0.5 * (k + 1), 3.0);
+        EXPECT_NEAR(low, 0.5 * (k + 1), 3.0);
+        EXPECT_NEAR(both, 0.25 * (k + 1), 8.0);
+    }
+}
+
+TEST(Spines, AreClosedAndCountedInAdvance) {
+    for (int lod = 0; lod < 4; ++lod) {
+        const std::vector<SpineLayer> layers = {layer_of(50, 0.02, 0.8)};
+        const Mesh mesh = spines(layers[0], {0.0, 0.0, 1.0}, lod);
+        const MeshCount count = spine_count(layers, detail_of(lod));
+        EXPECT_EQ(mesh.positions.size(), count.vertices);
+        EXPECT_EQ(mesh.triangles(), count.triangles);
+        const std::vector<Mesh> found = pieces(mesh);
+        EXPECT_EQ(found.size(), lod < 3 ? 50u : 25u);
+        for (const Mesh& piece : found) EXPECT_GT(volume(piece), 0.0);
+    }
+}
+
+TEST(Spines, HangWhenTheyDroopAndStandWhenTheyDoNot) {
+    const auto tips = [](const Mesh& mesh) {
+        std::vector<glm::dvec3> farthest;
+        for (const Mesh& piece : pieces(mesh)) {
+            // The base is at the root, whose place is a multiple of 0.1 on the x-axis.
+            glm::dvec3 tip(0.0);
+            for (const glm::vec3& p : piece.positions) {
+                glm::dvec3 from(p);
+                from.x -= 0.1 * std::floor(from.x / 0.1 + 0.5);
+                if (glm::length(from) > glm::length(tip)) tip = from;
+            }
+            farthest.push_back(tip);
+        }
+        return farthest;
+    };
+    for (const glm::dvec3& tip : tips(spines(layer_of(20, 0.02, 1.0), {0.0, 0.0, 1.0}))) {
+        EXPECT_LT(tip.y, -0.017);
+        EXPECT_LT(tip.z, 0.006);
+    }
+    for (const glm::dvec3& tip : tips(spines(layer_of(20, 0.02, 0.0), {0.0, 0.0, 1.0}))) {
+        EXPECT_GT(tip.z, 0.02);
+        EXPECT_LT(std::abs(tip.y), 0.005);
+    }
+}
+
+TEST(Spines, OfLengthZeroHaveNoTriangles) {
+    const SpineLayer none = layer_of(10, 0.0, 1.0);
+    EXPECT_TRUE(spines(none, {0.0, 1.0, 0.0}).indices.empty());
+    EXPECT_EQ(spines(none, {0.0, 1.0, 0.0}).positions.size(),
+              spine_count({none}, detail_of(0)).vertices);
+}
+
+TEST(Spines, OfACoralUseAtMostHalfOfItsTriangles) {
+    for (int lod = 0; lod < 4; ++lod) {
+        const std::vector<SpineLayer> many = {layer_of(4000, 0.02, 1.0)};
+        EXPECT_LE(spine_count(many, spine_detail(many, lod)).triangles, triangle_limit(lod) / 2);
+    }
+}
+
+TEST(Spines, OfSpeciesAreValidAtEveryAge) {
+    for (const char* id : {"cyathus_striatus", "hericium_erinaceus"})
+        for (const double age : {0.0, 0.3, 0.6, 1.0})
+            for (int lod = 0; lod < 4; ++lod) expect_valid(mesh_of(order_of(id, age, 3, lod)));
+}
+
+}  // namespace
+}  // namespace sporeprint::geometry_spines_test
