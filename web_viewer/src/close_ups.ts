@@ -45,9 +45,9 @@ const sidewaysTurn = 0.7;
 const forwards = new Vector3(0, 0, 1);
 
 /** Forms of mushrooms with a cap: it has a margin, and an underside that can be seen. */
-const capped = ["agaric", "bolete", "chanterelle", "tooth", "bracket", "shelving_agaric"];
+const capped = ["agaric", "bolete", "chanterelle", "tooth", "bracket", "shelving_agaric", "crust"];
 /** Forms with a margin only. */
-const rimmed = ["cup"];
+const rimmed = ["cup", "nest"];
 
 /** Returns why a mushroom of these forms has no such close-up, undefined if it has one. Of a mix
  *  one form with it is enough, and so is one that is not known. */
