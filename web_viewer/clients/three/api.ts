@@ -288,7 +288,7 @@ export interface components {
                     };
                     /**
                      * ornaments
-                     * @description What is left of the veils.
+                     * @description What is left of the veils and of what formed under them.
                      */
                     ornaments?: {
                         /**
@@ -311,6 +311,16 @@ export interface components {
                          * @description How much of the universal veil is left at the base of the stem: a sac round it, or scales on the bulb.
                          */
                         volva?: number;
+                        /**
+                         * peridioles
+                         * @description How many peridioles are left in a bird's nest; rain splashes them out.
+                         */
+                        peridioles?: number;
+                        /**
+                         * receptacle
+                         * @description How far the net of a cage fungus has unfolded out of its egg.
+                         */
+                        receptacle?: number;
                         /**
                          * glow
                          * @description Light of its own, as some species give at night.
