@@ -168,11 +168,13 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const Detail& detail, std::
     const SpineStyle& style = layer.style;
     const int count = built(layer, detail);
     if (count == 0) return;
-    const double wider = std::min(std::sqrt(static_cast<double>(style.count) / count), most_wide);
+    const double wider =
+        std::min(std::sqrt(std::sqrt(static_cast<double>(style.count) / count)), most_wide);
     for (int k = 0; k < count; ++k) {
         Random random(seed, purposes::spines, static_cast<std::uint32_t>(k));
         // Coarse levels build the first spines, so these are the longest.
-        const double shorter = 1.0 - style.unevenness * k / style.count;
+        const double rank = static_cast<double>(k) / style.count;
+        const double shorter = 1.0 - style.unevenness * std::sqrt(rank);
         const double thinner = 1.0 - 0.5 * style.unevenness * random.uniform();
         const SpineRoot root = root_of(k);
         const double scale = layer.weight * root.grown;
