@@ -106,10 +106,12 @@ void build_spine(GridSolid& solid, const SpineRoot& root, double length, double 
     // Where the surface faces upwards a spine lies on it instead of hanging through the body.
     const double inwards = std::min(glm::dot(hangs, root.outwards), 0.0);
     hangs = unit_or(hangs - inwards * root.outwards, root.outwards);
-    const glm::dvec3 start = root.place - sunk * width * root.outwards;
+    glm::dvec3 start = root.place - sunk * width * root.outwards;
     const glm::dvec3 bend =
         root.place + length * (least_stand + stand * (1.0 - style.droop)) * root.outwards;
     const glm::dvec3 tip = bend + length * hangs;
+    // A straight spine begins on the way to the bend, so that it lies as the curved one does.
+    if (solid.rows == 2) start = 0.5 * (start + bend);
     solid.corners.clear();
     glm::dvec3 side = square_to(root.outwards, glm::dvec3(0.36, 0.48, 0.8));
     for (int i = 0; i < solid.rows; ++i) {
@@ -168,13 +170,17 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const Detail& detail, std::
     const SpineStyle& style = layer.style;
     const int count = built(layer, detail);
     if (count == 0) return;
-    const double wider =
-        std::min(std::sqrt(std::sqrt(static_cast<double>(style.count) / count)), most_wide);
+    // Those that become shorter along the meridian lose the shortest ones, which nobody misses.
+    const double stands_for = std::sqrt(std::sqrt(static_cast<double>(style.count) / count));
+    const double wider = 1.0 + (1.0 - style.shortening) * (std::min(stands_for, most_wide) - 1.0);
     for (int k = 0; k < count; ++k) {
         Random random(seed, purposes::spines, static_cast<std::uint32_t>(k));
-        // Coarse levels build the first spines, so these are the longest.
+        // Coarse levels build the first spines, so these are the longest: by chance or, where spines
+        // become shorter along the meridian, by their place.
+        const double lot = random.uniform();
         const double rank = static_cast<double>(k) / style.count;
-        const double shorter = 1.0 - style.unevenness * std::sqrt(rank);
+        const double shorter =
+            1.0 - style.unevenness * (std::sqrt(rank) + style.shortening * (lot - std::sqrt(rank)));
         const double thinner = 1.0 - 0.5 * style.unevenness * random.uniform();
         const SpineRoot root = root_of(k);
         const double scale = layer.weight * root.grown;
@@ -198,7 +204,9 @@ void add_spines(Mesh& mesh, const Individual& individual, const OrnamentContext&
             mesh, layer, context.detail, context.seed, context.textured, context.keep_absent,
             [&](int k) {
                 const SpinePlace at = spine_place(k);
-                const double share = meridian.at(at.along);
+                const double rank = static_cast<double>(k) / layer.style.count;
+                const double share =
+                    meridian.at(at.along + layer.style.shortening * (rank - at.along));
                 const bool on_cap = share > 1.0;
                 const double theta = 2.0 * pi * at.round;
                 // Where the margin is cut, spines move inwards with the surface.
