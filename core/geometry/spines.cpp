@@ -60,17 +60,23 @@ bool is_present(const SpineLayer& layer) { return layer.weight * layer.style.len
 /// Radius and length of the outline by the share of its meridian, for places of equal density.
 class Meridian {
   public:
-    /// from, to  0 at the stem, 1 at the margin, 2 at the apex
-    Meridian(const Outline& outline, double from, double to) : from_(from), to_(to) {
-        const double step = (to - from) / samples;
+    /// from, to  see SpineStyle; of a form without a lower face both run over the cap alone
+    Meridian(const Outline& outline, double from, double to)
+        : cap_alone_(outline.hymenium.empty()),
+          from_(cap_alone_ ? 1.0 + 0.5 * from : from),
+          to_(cap_alone_ ? 1.0 + 0.5 * to : to) {
+        const double step = (to_ - from_) / samples;
         for (int i = 0; i < samples; ++i) {
-            const double share = from + (i + 0.5) * step;
-            const bool on_cap = share > 1.0;
+            const double share = from_ + (i + 0.5) * step;
+            const bool on_cap = is_on_cap(share);
             const SubCurve& curve = on_cap ? outline.cap : outline.hymenium;
             const double area = curve.at(on_cap ? share - 1.0 : share).r * curve.length();
             areas_[static_cast<std::size_t>(i) + 1] = areas_[static_cast<std::size_t>(i)] + area;
         }
     }
+    /// Returns true for a share of the meridian on the cap: above 1.
+    [[nodiscard]] bool is_on_cap(double share) const { return cap_alone_ || share > 1.0; }
+
     /// Returns the share of the meridian below which this share of the area lies.
     [[nodiscard]] double at(double share) const {
         const double area = share * areas_.back();
@@ -88,6 +94,7 @@ class Meridian {
 
   private:
     static constexpr int samples = 96;
+    bool cap_alone_;
     double from_, to_;
     std::array<double, samples + 1> areas_{};
 };
@@ -196,10 +203,7 @@ void add_spines(Mesh& mesh, const Individual& individual, const OrnamentContext&
     const AxisStation station = context.deformer.frozen_station(context.deformer.top());
     const auto upper = context.outline.rings(CurveName::cap, context.level);
     for (const SpineLayer& layer : individual.spines) {
-        // A form without a lower face bears its spines on the cap alone.
-        const double least = context.flesh.empty() ? 1.0 : 0.0;
-        const Meridian meridian(context.outline, std::max(layer.style.from, least),
-                                std::max(layer.style.to, least));
+        const Meridian meridian(context.outline, layer.style.from, layer.style.to);
         add_spines(
             mesh, layer, context.detail, context.seed, context.textured, context.keep_absent,
             [&](int k) {
@@ -207,7 +211,7 @@ void add_spines(Mesh& mesh, const Individual& individual, const OrnamentContext&
                 const double rank = static_cast<double>(k) / layer.style.count;
                 const double share =
                     meridian.at(at.along + layer.style.shortening * (rank - at.along));
-                const bool on_cap = share > 1.0;
+                const bool on_cap = meridian.is_on_cap(share);
                 const double theta = 2.0 * pi * at.round;
                 // Where the margin is cut, spines move inwards with the surface.
                 const double cut = on_cap ? 1.0 - context.cuts.cap(2.0 - share, theta)

@@ -39,7 +39,8 @@ struct SpineStyle {
                              .min = 0,
                              .max = 2,
                              .doc = "Where on the meridian spines begin: 0 at the stem, 1 at the "
-                                    "margin, 2 at the apex. Of corals: 0 at the lowest fork, 1 at "
+                                    "margin, 2 at the apex; without a lower face 0 where the cap "
+                                    "begins, 2 at the apex. Of corals: 0 at the lowest fork, 1 at "
                                     "the tips."});
         visit(&S::to, Info{.name = "to",
                            .min = 0,

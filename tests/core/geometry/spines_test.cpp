@@ -108,5 +108,20 @@ TEST(Spines, OfSpeciesAreValidAtEveryAge) {
             for (int lod = 0; lod < 4; ++lod) expect_valid(mesh_of(order_of(id, age, 3, lod)));
 }
 
+TEST(Spines, OfAFormWithoutALowerFaceStandOnItsCap) {
+    for (const auto& [from, to] : {std::pair{0.0, 1.0}, std::pair{0.0, 2.0}, std::pair{0.0, 0.0}}) {
+        MushroomSpec order = order_of("clavariadelphus_pistillaris", 0.6, 3, 1);
+        Model model = atlas().find("clavariadelphus_pistillaris")->species.stages[2].model;
+        model.spines.count = 40;
+        model.spines.from = from;
+        model.spines.to = to;
+        order.mix.clear();
+        order.model = model;
+        const Mesh mesh = mesh_of(order);
+        expect_valid(mesh);
+        EXPECT_EQ(pieces(mesh).size(), 41u) << from << ' ' << to;
+    }
+}
+
 }  // namespace
 }  // namespace sporeprint::geometry_spines_test
