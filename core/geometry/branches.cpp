@@ -88,8 +88,9 @@ struct Station {
     double few = 0.0;     ///< see BranchGraph::Node::few
 };
 
-/// The waves of the two edges of a flat segment: partly against each other, as of a twisted ribbon,
-/// partly together, as of a cupped leaf.
+/// The waves of the two edges of a flat segment, against each other as of a twisted ribbon. They are
+/// linear in the sum of squares that flattens the segment, so that it may turn into another plane
+/// without a jump.
 class Ruffle {
   public:
     /// amount  0..1; phase: of the segment
@@ -100,14 +101,6 @@ class Ruffle {
         const double width = station.radius * (station.wide - station.thin);
         size_ = amount_ * ruffle_size * width;
         if (size_ <= 0.0) return;
-        // The plane of the segment is that of the longest column of its sum of squares.
-        glm::dvec3 aside = station.flat[0];
-        for (int k = 1; k < 3; ++k)
-            if (glm::dot(station.flat[k], station.flat[k]) > glm::dot(aside, aside))
-                aside = station.flat[k];
-        aside = square_to(station.along, aside);
-        aside_ = glm::dot(aside, aside_) < 0.0 ? -aside : aside;
-        square_ = glm::cross(station.along, aside_);
         if (begun_) {
             const double turn = std::min(2.0 * pi * glm::distance(station.at, last_) /
                                              (ruffle_length * station.radius * station.wide),
@@ -117,6 +110,8 @@ class Ruffle {
         }
         // Waves grow from nothing, since a segment begins with the last ring of what bears it.
         size_ *= std::min(turned_ / most_ruffle_turn, 1.0);
+        along_ = station.along;
+        flat_ = station.flat;
         last_ = station.at;
         begun_ = true;
     }
@@ -124,15 +119,13 @@ class Ruffle {
     /// Returns the displacement of the corner in a direction from the middle of the ring, metres.
     [[nodiscard]] glm::dvec3 displacement(const glm::dvec3& out) const {
         if (size_ <= 0.0) return glm::dvec3(0.0);
-        const double across = glm::dot(out, aside_);
-        return size_ *
-               (across * sine(phase_) + 0.6 * (across * across - 0.4) * sine(0.61 * phase_ + 1.0)) *
-               square_;
+        return size_ * sine(phase_) * glm::cross(along_, flat_ * out);
     }
 
   private:
     double amount_, phase_, turned_ = 0.0, size_ = 0.0;
-    glm::dvec3 aside_{0.0}, square_{0.0}, last_{0.0};
+    glm::dvec3 along_{0.0}, last_{0.0};
+    glm::dmat3 flat_{0.0};
     bool begun_ = false;
 };
 
