@@ -184,7 +184,6 @@ class EggShape {
     EggShape(const ReceptacleStyle& style, double floor, double scale)
         : style_(style), floor_(floor), scale_(scale) {
         for (int i = 0; i <= samples; ++i) {
-            // Angles are denser at the base for long meshes there.
             const double t = static_cast<double>(i) / samples;
             places_[static_cast<std::size_t>(i)] = place(t);
         }
