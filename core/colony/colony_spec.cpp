@@ -100,9 +100,9 @@ ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
         }
         const Facts& facts = entry->species.facts;
         names ^= stream_of(part.id);
-        traits.lateral = traits.lateral || entry->species.is_lateral();
-        traits.capped =
-            traits.capped && has_cap_on_stem(facts.form) && !entry->species.is_lateral();
+        const bool is_lateral = entry->species.is_lateral();
+        traits.lateral = traits.lateral || is_lateral;
+        traits.capped = traits.capped && has_cap_on_stem(facts.form) && !is_lateral;
         if (!most || part.weight > most->weight ||
             (part.weight == most->weight && part.id < most->id)) {
             most = &part;

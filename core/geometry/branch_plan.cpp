@@ -162,11 +162,13 @@ bool is_present(const BranchGraph& graph, const TubeChain& chain) {
     return graph.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
-BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level, std::uint64_t others) {
+BranchPlan branch_plan(const BranchGraph& graph, const std::vector<SpineLayer>& spines,
+                       DetailLevel level) {
     const Resolutions allowed = resolutions_at(level);
     const std::uint64_t all =
         level.lod < farthest_lod ? triangle_limit(level) : std::uint64_t{most_at_farthest};
-    const std::uint64_t limit = all - std::min(others, all / 2);
+    const std::uint64_t hanging = spine_count(spines, spine_detail(spines, level)).triangles;
+    const std::uint64_t limit = all - std::min(hanging, all / 2);
     BranchPlan plan;
     plan.chains = chains_of(graph);
     // For each node its chain, and its index there.
@@ -214,11 +216,9 @@ BranchPlan branch_plan(const BranchGraph& graph, DetailLevel level, std::uint64_
 
 MeshCount branched_mesh_count(const Individual& individual, DetailLevel level, bool keep_absent) {
     const BranchGraph& graph = individual.branch_graph;
-    const Detail detail = spine_detail(individual.spines, level);
-    const BranchPlan plan =
-        branch_plan(graph, level, spine_count(individual.spines, detail).triangles);
+    const BranchPlan plan = branch_plan(graph, individual.spines, level);
     MeshCount count = plan.count;
-    count += spine_count(individual.spines, detail, keep_absent);
+    count += spine_count(individual.spines, spine_detail(individual.spines, level), keep_absent);
     if (keep_absent) return count;
     for (const TubeChain& chain : plan.chains)
         if (!is_present(graph, chain)) {

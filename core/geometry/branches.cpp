@@ -207,8 +207,7 @@ class TubeBuilder {
     TubeBuilder(const Individual& individual, DetailLevel level, const SweepOptions& options)
         : graph_(deformed(individual)),
           spine_detail_(spine_detail(individual.spines, level)),
-          plan_(
-              branch_plan(graph_, level, spine_count(individual.spines, spine_detail_).triangles)),
+          plan_(branch_plan(graph_, individual.spines, level)),
           seed_(individual.effective.seed),
           full_disc_(level < 2),
           options_(options),

@@ -1,6 +1,7 @@
 // Closed solids made of a grid of corners: rows from a base to a tip or round a loop.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -10,6 +11,14 @@
 #include "core/surface/charts.h"
 
 namespace sporeprint {
+
+/// Returns the row of a table of resolutions for a level of detail: the first one, in descending
+/// order, whose `least_columns` the level has. The last one has 0.
+template <class Table>
+[[nodiscard]] const auto& by_columns(const Table& table, const Detail& detail) {
+    return *std::find_if(table.begin(), table.end(),
+                         [&](const auto& one) { return detail.columns >= one.least_columns; });
+}
 
 /// The grid of a closed solid: rows from its base to its tip, columns round it, without the first
 /// one repeated.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <vector>
 
 #include "core/geometry/grid_solid.h"
@@ -70,11 +70,7 @@ constexpr std::array<Resolution, 7> resolutions = {{{64, 6, 16, 1, 4, 40},
                                                     {12, 3, 6, 8, 2, 25},
                                                     {0, 0, 0, 8, 2, 5}}};
 
-const Resolution& resolution_of(const Detail& detail) {
-    return *std::find_if(resolutions.begin(), resolutions.end(), [&](const Resolution& one) {
-        return detail.columns >= one.least_columns;
-    });
-}
+const Resolution& resolution_of(const Detail& detail) { return by_columns(resolutions, detail); }
 
 /// Returns the share of peridioles and meshes that a crowded level builds: spines are left out first.
 double retained(const Detail& detail) { return std::min(2.0 * detail.free_solids, 1.0); }
@@ -143,6 +139,7 @@ void add_layer(Mesh& mesh, const PeridioleLayer& layer, const OrnamentContext& c
     const PeridioleStyle& style = layer.style;
     const std::vector<OutlineSample> rings = context.outline.rings(CurveName::cap, context.level);
     const AxisStation station = context.deformer.frozen_station(context.deformer.top());
+    const int columns = detail_of(context.level).columns;
     const int below = static_cast<int>(std::ceil(lowest_layer * style.count));
     const double golden = pi * (3.0 - std::sqrt(5.0));
     for (int k = 0; k < built_lenses(layer, context.detail); ++k) {
@@ -161,9 +158,9 @@ void add_layer(Mesh& mesh, const PeridioleLayer& layer, const OrnamentContext& c
         const double sigma =
             style.reach * std::sqrt(std::clamp((place + 0.5 + nearer) / lying, 0.0, 1.0));
         const double theta = golden * place + turned * 0.15 + 1.1 * storey;
-        const SurfacePoint at = context.rest_surface.meshed(
-            Part::cap, rings, detail_of(context.level).columns, 1.0 - sigma,
-            theta - 2.0 * pi * std::floor(theta / (2.0 * pi)));
+        const SurfacePoint at =
+            context.rest_surface.meshed(Part::cap, rings, columns, 1.0 - sigma,
+                                        theta - 2.0 * pi * std::floor(theta / (2.0 * pi)));
         const glm::dvec3 normal =
             unit_or(glm::cross(at.meridian, at.azimuth), glm::dvec3(0.0, 1.0, 0.0));
         const glm::dvec3 up = unit_or(normal + tilt, normal);
@@ -355,9 +352,9 @@ void append_mesh(Mesh& mesh, const NetMesh& one, const OrnamentContext& context,
             const glm::dvec3 to_rim = one.rim[i] - crest.position;
             const double lump = 0.5 * (lumps[i] + lumps[next]);
             const double height = is_crest ? (band == 0 ? 1.0 : -1.0) : round.cosine;
-            std::array<glm::dvec3, 1> place = {
-                crest.position + across * (1.0 + side_lumps * lump * across) * to_rim +
-                height * crest.half * crest.normal};
+            glm::dvec3 place = crest.position +
+                               across * (1.0 + side_lumps * lump * across) * to_rim +
+                               height * crest.half * crest.normal;
             const glm::dvec3 normal =
                 height * crest.normal + across * unit_or(to_rim, crest.normal);
             const std::size_t after = (i + step) % one.border.size(),
@@ -366,9 +363,9 @@ void append_mesh(Mesh& mesh, const NetMesh& one, const OrnamentContext& context,
                 (1.0 - across) * (one.border[after].position - one.border[before].position) +
                 across * (one.rim[after] - one.rim[before]);
             const glm::dvec3 turned =
-                unit_or(station.direction(place[0], normal), glm::dvec3(0.0, 1.0, 0.0));
-            context.deformer.apply(place, station);
-            mesh.positions.emplace_back(place[0]);
+                unit_or(station.direction(place, normal), glm::dvec3(0.0, 1.0, 0.0));
+            context.deformer.apply(std::span(&place, 1), station);
+            mesh.positions.emplace_back(place);
             mesh.normals.emplace_back(turned);
             if (!context.textured) continue;
             const TexturePoint uv =
@@ -376,7 +373,7 @@ void append_mesh(Mesh& mesh, const NetMesh& one, const OrnamentContext& context,
                             painted(static_cast<double>(band) / bands));
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
             mesh.tangents.emplace_back(
-                glm::vec3(square_to(turned, station.direction(place[0], ahead))), -1.0F);
+                glm::vec3(square_to(turned, station.direction(place, ahead))), -1.0F);
         }
     }
     if (!drawn) return;

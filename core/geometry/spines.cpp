@@ -43,11 +43,7 @@ constexpr std::array<Resolution, 5> resolutions = {
 /// The largest factor on the width of a spine that stands for several.
 constexpr double most_wide = 2.5;
 
-const Resolution& resolution_of(const Detail& detail) {
-    return *std::find_if(resolutions.begin(), resolutions.end(), [&](const Resolution& one) {
-        return detail.columns >= one.least_columns;
-    });
-}
+const Resolution& resolution_of(const Detail& detail) { return by_columns(resolutions, detail); }
 
 /// Returns how many spines of a layer a level builds: the first ones of the sequence.
 int built(const SpineLayer& layer, const Detail& detail) {

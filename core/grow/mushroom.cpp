@@ -8,7 +8,6 @@
 #include "core/geometry/branch_plan.h"
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
-#include "core/geometry/spines.h"
 #include "core/gltf/glb.h"
 #include "core/grow/collision.h"
 #include "core/grow/growth.h"
@@ -192,9 +191,7 @@ double outline_error(const Individual& individual, DetailLevel level, double rad
         return radius * (inscribed_error(detail.columns) + inscribed_error(4 * detail.cap_rings));
     }
     const BranchGraph& graph = individual.branch_graph;
-    const BranchPlan plan = branch_plan(
-        graph, level,
-        spine_count(individual.spines, spine_detail(individual.spines, level)).triangles);
+    const BranchPlan plan = branch_plan(graph, individual.spines, level);
     double tips = 0.0;
     for (const std::uint32_t root : graph.roots) tips += graph.nodes[root].tips;
     // Tubes that are left out leave gaps: n tips in a disc are about radius / sqrt(n) apart.

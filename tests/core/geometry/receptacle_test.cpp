@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -17,20 +18,21 @@
 namespace sporeprint::geometry_receptacle_test {
 namespace {
 
-Mesh cage(double amount, int lod = 0, std::uint32_t seed = 4) {
-    MushroomSpec order = order_of("clathrus_ruber", 0.6, seed, lod);
-    order.params.ornaments.receptacle = amount;
+Mesh mesh_with(const char* id, std::optional<double> OrnamentsOf<Maybe>::*of, double amount,
+               int lod, std::uint32_t seed) {
+    MushroomSpec order = order_of(id, 0.6, seed, lod);
+    order.params.ornaments.*of = amount;
     Mesh mesh = mesh_of(order);
     expect_valid(mesh);
     return mesh;
 }
 
+Mesh cage(double amount, int lod = 0, std::uint32_t seed = 4) {
+    return mesh_with("clathrus_ruber", &OrnamentsOf<Maybe>::receptacle, amount, lod, seed);
+}
+
 Mesh nest(double amount, int lod = 0, std::uint32_t seed = 4) {
-    MushroomSpec order = order_of("cyathus_striatus", 0.6, seed, lod);
-    order.params.ornaments.peridioles = amount;
-    Mesh mesh = mesh_of(order);
-    expect_valid(mesh);
-    return mesh;
+    return mesh_with("cyathus_striatus", &OrnamentsOf<Maybe>::peridioles, amount, lod, seed);
 }
 
 /// Returns V - E + F of a closed mesh whose equal positions are one vertex.
