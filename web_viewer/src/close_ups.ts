@@ -37,15 +37,26 @@ const mostOfModel = 0.7;
 const betweenMiddleAndMargin = 0.6;
 /** Height of the base in its close-up: the ground is in the lower third. */
 const baseHeight = 0.3;
-/** A model grows sideways if its middle is farther from its origin than this part of the frame; its
- *  base is looked at from an angle to the side that it grows to, radians. */
+/** A model grows sideways if its middle is farther beside its origin than this part of the frame, and
+ *  than this part of its height, so that it does not only lean; its base is looked at from an angle
+ *  to the side that it grows to, radians. */
 const sidewaysFrom = 0.25;
+const leaningUpTo = 0.5;
 const sidewaysTurn = 0.7;
 
 const forwards = new Vector3(0, 0, 1);
 
 /** Forms of mushrooms with a cap: it has a margin, and an underside that can be seen. */
-const capped = ["agaric", "bolete", "chanterelle", "tooth", "bracket", "shelving_agaric", "crust"];
+const capped = [
+    "agaric",
+    "bolete",
+    "chanterelle",
+    "tooth",
+    "trumpet",
+    "bracket",
+    "shelving_agaric",
+    "crust",
+];
 /** Forms with a margin only. */
 const rimmed = ["cup", "nest"];
 
@@ -178,7 +189,8 @@ function baseOf(
     // A lone bracket grows forwards from its wood, whose middle is behind it.
     const isBracket = !individual && woodOf(model) !== undefined;
     if (isBracket) away.copy(forwards);
-    if (isBracket || away.length() > sidewaysFrom * frame) {
+    const height = bounds.max.y - bounds.min.y;
+    if (isBracket || away.length() > Math.max(sidewaysFrom * frame, leaningUpTo * height)) {
         // The cap hides the base of what grows sideways, but not from obliquely below.
         const seen = away.normalize().applyAxisAngle(new Vector3(0, 1, 0), sidewaysTurn);
         return { target, direction: seen.setY(-0.55).normalize(), frame };
