@@ -262,6 +262,7 @@ Mesh swept_mesh(const Individual& individual, DetailLevel level, const SweepOpti
                                   individual};
     add_ornaments(mesh, individual, context);
     if (budget.solids) add_hymenium(mesh, individual, lower, context, budget);
+    BracketBase(individual).apply(mesh);
     wrap_round_trunk(mesh, individual.bending_radius());
     return mesh;
 }

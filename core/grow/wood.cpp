@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/wrap.h"
 #include "core/grow/names.h"
 #include "core/individual/proportion.h"
 #include "core/math/purposes.h"
@@ -24,14 +25,15 @@ std::optional<WoodPiece> wood_behind(const Individual& individual) {
     Extent extent{individual.stem_base, individual.stem_base};
     for (const SubCurve* curve : {&outline.stem, &outline.hymenium, &outline.cap})
         extent.include(*curve);
+    const auto [low, high] = BracketBase(individual).range(extent.low, extent.high);
     std::uint32_t names = 0;
     for (const SpeciesShare& part : individual.parts) names ^= stream_of(part.id);
     // The bracket of a clip grows taller than it is at the requested age.
     const bool grows = individual.effective.animation == Animation::growth;
     const double beyond = (grows ? beyond_growing : beyond_bracket) * individual.trunk_radius;
     return WoodPiece{.radius = individual.trunk_radius,
-                     .bottom = extent.low - beyond,
-                     .top = extent.high + beyond,
+                     .bottom = low - beyond,
+                     .top = high + beyond,
                      .seed = Random(individual.effective.seed, purposes::wood, names).bits(),
                      .split = split_behind * individual.trunk_radius};
 }

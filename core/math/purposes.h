@@ -79,6 +79,7 @@ enum Purpose : std::uint32_t {
     net_arms = 137,        ///< how thick each arm of a receptacle is along its middle
     spines = 139,          ///< how each spine hangs
     net_lumps = 138,       ///< how spongy the arms round each mesh are
+    bracket_base = 140,    ///< how unevenly a bracket meets its wood
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -157,6 +158,7 @@ enum Purpose : std::uint32_t {
         case net_cells:
         case net_arms:
         case net_lumps:
+        case bracket_base:
         case spines:
             return 1;
     }

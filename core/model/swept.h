@@ -109,6 +109,7 @@ struct Azimuth {
     double fan_deg = 90.0;
     double width = 1.0;
     double core = 0.1;
+    double base = 0.0;
     int lobes = 0;
     double lobe_depth = 0.0;
     double lobe_sharpness = 0.0;
@@ -140,6 +141,12 @@ struct Azimuth {
                              .max = 0.6,
                              .doc = "Share of the widest radius that a fan leaves round: its stem, "
                                     "or how far it reaches into the wall."});
+        visit(&A::base,
+              Info{.name = "base",
+                   .min = 0,
+                   .max = 8,
+                   .doc = "How much thicker a bracket becomes where it meets its wood: its "
+                          "lower face runs down the bark there; 0 not at all."});
         visit(&A::lobes,
               Info{.name = "lobes", .min = 0, .max = 24, .doc = "Lobes or rays round the margin."});
         visit(&A::lobe_depth, Info{.name = "lobe_depth",

@@ -116,5 +116,83 @@ TEST(Wrap, BracketsHaveNoGapToTheirTrunk) {
     }
 }
 
+TEST(BracketBase, MovesNothingInFrontOfItsReach) {
+    Mesh mesh = plane(0.05, 0.9);
+    const Mesh before = mesh;
+    BracketBase(0.1, 0.05, 2.0, 3.0, 7).apply(mesh);
+    EXPECT_TRUE(same_bits(before, mesh));
+    BracketBase(0.1, 0.5, 2.0, 0.0, 7).apply(mesh);
+    EXPECT_TRUE(same_bits(before, mesh)) << "of no amount";
+}
+
+TEST(BracketBase, IsThickestAtTheWallAndUnderTheMiddle) {
+    // Two points at equal distances over and under the middle, at several distances from the wall.
+    constexpr double middle = 0.2, apart = 0.01;
+    double last_down = 1e9, last_up = 1e9;
+    for (const double z : {-0.02, 0.0, 0.01, 0.03, 0.06, 0.0999}) {
+        Mesh mesh;
+        for (const double y : {middle - apart, middle, middle + apart}) {
+            mesh.positions.emplace_back(0.03, y, z);
+            mesh.normals.emplace_back(0.0F, 0.0F, 1.0F);
+        }
+        BracketBase(middle, 0.1, 0.3, 2.0, 3).apply(mesh);
+        const double down = middle - static_cast<double>(mesh.positions[0].y);
+        const double up = static_cast<double>(mesh.positions[2].y) - middle;
+        EXPECT_NEAR(static_cast<double>(mesh.positions[1].y), middle, 1e-7);
+        EXPECT_LE(down, last_down + 1e-7) << z;
+        EXPECT_LE(up, last_up + 1e-7) << z;
+        EXPECT_GT(down, z < 0.09 ? up + 1e-5 : up - 1e-7) << z;
+        EXPECT_GE(up, apart - 1e-7) << z;
+        last_down = down;
+        last_up = up;
+        const auto [low, high] =
+            BracketBase(middle, 0.1, 0.3, 2.0, 3).range(middle - apart, middle);
+        EXPECT_LE(low, static_cast<double>(mesh.positions[0].y));
+        EXPECT_EQ(high, middle);
+    }
+    EXPECT_NEAR(last_down, apart, 1e-5);
+}
+
+TEST(BracketBase, NormalsAreThoseOfTheMovedSurface) {
+    // A slanting plane y = m + 0.3 x - 0.4 z + d: neighbours give its tangents after the move.
+    constexpr double step = 1e-4;
+    const BracketBase base(0.0, 0.1, 0.25, 2.5, 11);
+    for (const double x : {-0.2, 0.0, 0.13})
+        for (const double z : {0.002, 0.03, 0.08})
+            for (const double d : {-0.3, 0.3}) {
+                Mesh mesh;
+                for (const auto& [dx, dz] : {std::pair{0.0, 0.0}, {0.0, step}, {step, 0.0}}) {
+                    mesh.positions.emplace_back(x + dx, 0.3 * (x + dx) - 0.4 * (z + dz) + d,
+                                                z + dz);
+                    mesh.normals.emplace_back(glm::normalize(glm::vec3(-0.3F, 1.0F, 0.4F)));
+                    mesh.tangents.emplace_back(
+                        glm::vec4(glm::normalize(glm::vec3(1.0F, 0.3F, 0.0F)), 1.0F));
+                }
+                base.apply(mesh);
+                const glm::dvec3 at(mesh.positions[0]);
+                const glm::dvec3 along = glm::dvec3(mesh.positions[2]) - at;
+                const glm::dvec3 normal =
+                    glm::normalize(glm::cross(glm::dvec3(mesh.positions[1]) - at, along));
+                EXPECT_GT(glm::dot(normal, glm::dvec3(mesh.normals[0])), 0.999)
+                    << x << ' ' << z << ' ' << d;
+                EXPECT_GT(glm::dot(glm::normalize(along),
+                                   glm::normalize(glm::dvec3(glm::vec3(mesh.tangents[0])))),
+                          0.999)
+                    << x << ' ' << z << ' ' << d;
+            }
+}
+
+TEST(BracketBase, BelongsToBracketsWithOneOnly) {
+    const auto with_base = [](const char* id, double amount) {
+        Individual individual = resolved(order_of(id));
+        individual.trunk_radius = 0.0;
+        individual.azimuth.base = amount;
+        return mushroom_mesh(order_of(id), individual);
+    };
+    EXPECT_FALSE(
+        same_bits(with_base("trametes_versicolor", 0.0), with_base("trametes_versicolor", 2.0)));
+    EXPECT_TRUE(same_bits(with_base("boletus_edulis", 0.0), with_base("boletus_edulis", 2.0)));
+}
+
 }  // namespace
 }  // namespace sporeprint::geometry_wrap_test

@@ -170,7 +170,8 @@ TEST(WoodBehind, IsSolid) {
         const auto [bare, none] = parts(order_of(id));
         EXPECT_GE(wood, 1U) << id;
         EXPECT_EQ(none, 0U) << id;
-        EXPECT_EQ(all, bare + wood) << id;
+        // Round its trunk a bracket may need more parts than on a flat wall.
+        EXPECT_GE(all, bare + wood) << id;
     }
 }
 
