@@ -28,6 +28,10 @@ constexpr double least_corner = 0.78, most_corner = 1.12, tip_deviation = 0.25, 
 /// wider than a cone the middle of a cushion is, and how much narrower, in that, that of a spine.
 constexpr double cushion_height = 0.9, spine_height = 1.5, bulge = 0.55, spine_hollow = 2.2;
 
+/// Warts are crumbs of a veil that has burst, not cones: how much their corners stray, across in
+/// shares of their distance from the middle and upwards in heights, and how flat their tops are.
+constexpr double crumb_stray = 0.3, crumb_rise = 0.28, crumb_top = 0.5;
+
 /// Depth of a patch's base under the surface, in radii.
 constexpr double patch_depth = 0.25;
 
@@ -127,6 +131,14 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     for (double& r : reach) r = random.uniform(least_corner, most_corner);
     const double tip_round = tip_deviation * random.symmetric();
     const double tip_outward = tip_deviation * random.symmetric() + tip_lift * style.lift;
+    // Likewise how its corners stray, in four rings between its base and its tip.
+    constexpr int crumb_rings = 4;
+    std::array<std::array<double, 2>, std::size_t{7} * crumb_rings> stray{};
+    for (auto& [across, up] : stray) {
+        across = crumb_stray * random.symmetric();
+        up = crumb_rise * random.symmetric();
+    }
+    const double crumbled = layer.purpose == purposes::scales ? 0.0 : 1.0 - pointed;
     std::array<glm::dvec3, 7> rim{};
     for (int j = 0; j < sides; ++j) {
         const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
@@ -139,10 +151,19 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     for (int i = 0; i < solid.rows; ++i) {
         const double up = static_cast<double>(i) / (solid.rows - 1);
         const double narrowing = (1.0 - up) * (1.0 + bulge * up * (1.0 - spine_hollow * pointed));
-        const glm::dvec3 middle =
-            frame.centre + up * tip + (i == 0 ? -patch_depth * radius : height * up) * frame.normal;
-        for (int j = 0; j < sides; ++j)
-            solid.corners.push_back(middle + narrowing * rim[static_cast<std::size_t>(j)]);
+        const double risen = up * (1.0 + crumbled * crumb_top * (1.0 - up));
+        const bool between = i > 0 && i + 1 < solid.rows;
+        const std::size_t ring = static_cast<std::size_t>(up * crumb_rings * 0.999);
+        for (int j = 0; j < sides; ++j) {
+            const auto side = static_cast<std::size_t>(j);
+            const auto [across, upwards] =
+                stray[7 * ring + side * 7 / static_cast<std::size_t>(sides)];
+            const double crumb = between ? crumbled : 0.0;
+            const double rise =
+                i == 0 ? -patch_depth * radius : height * (risen + crumb * upwards * up);
+            solid.corners.push_back(frame.centre + up * tip + rise * frame.normal +
+                                    narrowing * (1.0 + crumb * across) * rim[side]);
+        }
         solid.corners.push_back(
             solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
     }

@@ -59,6 +59,7 @@ Unevenness::Unevenness(const Individual& individual) {
     base_ = individual.stem_base;
     length_ = std::max(cap.low - base_, 0.0);
     const double stem_radius = greatest_radius(outline.stem);
+    const double slender = length_ < stem_radius ? length_ / stem_radius : 1.0;
     for (const SpeciesShare& part : individual.parts) {
         Random random(individual.effective.seed, purposes::unevenness, stream_of(part.id));
         const double share = amount * part.weight;
@@ -68,7 +69,8 @@ Unevenness::Unevenness(const Individual& individual) {
         for (std::size_t i = 0; i < waves; ++i) {
             winding_[i] += share * drawn(random, std::min(of_winding[i] * length_,
                                                           most_winding * stem_radius));
-            swelling_[i] += share * of_swelling[i] * random.uniform(0.4, 1.0);
+            // On a stem shorter than it is wide, swellings would turn the face inside out.
+            swelling_[i] += share * of_swelling[i] * random.uniform(0.4, 1.0) * slender;
         }
     }
     Random random(individual.effective.seed, purposes::unevenness);
