@@ -200,10 +200,11 @@ HWY_INLINE void add_pit(const SpotPlan& spot, VF x, VF y, const DamageTarget& at
     const VF far = hn::Sqrt(oval.square) + ragged * set(0.20F);
     const VF open = (one - smooth(far, 0.90F, 9.0F)) * shown;
     at.raise(damage_open, open);
-    // The pit is flat at the bottom and steep at the sides, with fine scallops left by the radula.
-    const VF rasp = wave(oval.a * set(4.5F) + hn::Abs(wave(oval.b * set(1.6F))) * set(0.5F) +
-                         ragged * set(1.4F)) *
-                    set(0.11F);
+    // The pit is flat at the bottom and steep at the sides, with shallow marks of the radula, which
+    // scrapes along its short axis.
+    const VF gnawed = noise2(oval.a * set(9.0F), oval.b * set(3.5F), spot.seed + 1U);
+    const VF crumbs = noise2(oval.a * set(17.0F), oval.b * set(13.0F), spot.seed + 2U);
+    const VF rasp = gnawed * set(0.11F) + crumbs * set(0.07F);
     const VF floor = one - smooth(far, 0.55F, 2.6F);
     at.raise(damage_sunk, hn::Max(floor + rasp * open, zero) * set(spot.height) * shown);
     const VF wall = hn::Max(one - hn::Abs(far - set(0.86F)) * set(5.0F), zero);

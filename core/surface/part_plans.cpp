@@ -265,6 +265,15 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
+/// Returns the factor on the colour of a skin under a thin film of soil: the hue of the soil, half as
+/// strong, at the lightness that the film leaves.
+Light film_of(const Light& soil) {
+    constexpr float left = 0.62F;
+    const float most = std::max({soil.r, soil.g, soil.b, 1e-3F});
+    const auto of = [&](float channel) { return left * 0.5F * (1.0F + channel / most); };
+    return {of(soil.r), of(soil.g), of(soil.b)};
+}
+
 StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     const StemSurface& stem = params.surface.stem;
     StemPlan plan;
@@ -300,13 +309,18 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.base_stain = single(stem.base_stain);
     plan.soil = single(stem.soil);
     plan.soil_colour = light_of(stem.soil_colour);
+    plan.film = film_of(plan.soil_colour);
     plan.mycelium = single(stem.mycelium);
     const double foot = std::min(length_of_step(params.metrics.stem_foot) / length, 1.0);
     plan.foot = single(foot);
-    // Half a diameter high, but no more than a sixth of what is above the ground.
-    plan.soil_reach = single(std::max(std::min(0.5 / (pi * aspect), (1.0 - foot) / 6.0), 1e-4));
-    for (std::size_t i = 0; i < 2; ++i)
-        plan.clods[i] = resolvable(1.0 / (stem_clod_cells[i] * std::max(round, along)));
+    // Half a diameter high, but no more than a ninth of what is above the ground.
+    plan.soil_reach = single(std::max(std::min(0.5 / (pi * aspect), (1.0 - foot) / 9.0), 1e-4));
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double cells =
+            std::clamp(std::round(circumference / grain_distance[i]), 16.0, most_grains);
+        plan.grains[i] = single(cells);
+        plan.grains_shown[i] = resolvable(1.0 / (cells * std::max(round, along)));
+    }
     plan.fibrils = single(stem.fibrils);
     const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};
     for (std::size_t i = 0; i < 3; ++i)

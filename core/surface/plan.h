@@ -201,12 +201,14 @@ struct StemPlan {
     /// Frequency factor of fine noise along a thin stem, whose texels are long.
     float stretch = 1.0F;
     Light top, base, stain, band_colour, net_colour, soil_colour;
+    Light film;  ///< factor on the colour of skin under a thin film of soil
     float base_stain = 0.0F;
     float soil = 0.0F;
     float mycelium = 0.0F;
-    float foot = 0.0F;             ///< share of the stem below the ground
-    float soil_reach = 1.0F;       ///< share of the stem that soil reaches above the ground
-    std::array<float, 2> clods{};  ///< by octave, already limited to the texel resolution
+    float foot = 0.0F;        ///< share of the stem below the ground
+    float soil_reach = 1.0F;  ///< share of the stem that soil reaches above the ground
+    std::array<float, 2> grains = {44.0F, 127.0F};  ///< of soil round the stem: coarse and fine
+    std::array<float, 2> grains_shown{};            ///< 0 where they are smaller than texels
     float fibrils = 0.0F;
     float bands = 0.0F;
     float net = 0.0F;
@@ -228,13 +230,15 @@ struct StemPlan {
 };
 
 inline constexpr std::array<int, 3> stem_bump_cells = {26, 83, 190};
-inline constexpr std::array<int, 2> stem_clod_cells = {44, 127};
+/// Distances of grains of soil on a stem, metres, and the most of them round it.
+inline constexpr std::array<double, 2> grain_distance = {0.0013, 0.0005};
+inline constexpr double most_grains = 420.0;
 inline constexpr std::array<int, 3> stem_fibre_cells = {17, 46, 109};
 inline constexpr std::array<float, 3> stem_fibre_slender = {0.16F, 0.10F, 0.08F};
 inline constexpr std::array<float, 3> cap_bump_frequency = {21.0F, 52.0F, 118.0F};
 inline constexpr std::array<float, 2> hymenium_bump_frequency = {30.0F, 62.0F};
 inline constexpr float net_columns = 46.0F;
-inline constexpr float net_stretch = 1.8F;
+inline constexpr float net_stretch = 2.3F;
 
 struct VeilPlan {
     std::array<std::uint32_t, 4> seed{};

@@ -78,9 +78,18 @@ HWY_INLINE void add_stem_net(const StemPlan& plan, VF along, VF turn, const VF* 
     const VF y = length * set(net_columns / net_stretch) + middle * set(0.30F);
     VF thread = zero;
     if (plan.net_shown > 0.0F && !hn::AllTrue(Floats(), strength <= zero)) {
-        const Cells mesh =
-            ring_cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch, 0.34F, plan.seed[8]);
-        thread = one - smooth(mesh.border, 0.02F, 3.6F);
+        // Threads are bent, thicker where they meet, and of unlike strength.
+        constexpr int bends = 2 * static_cast<int>(net_columns);
+        const VF bend = periodic_noise2(turn * set(static_cast<float>(bends)), y * set(2.4F), bends,
+                                        plan.seed[8] + 1U);
+        const VF other = periodic_noise2(turn * set(static_cast<float>(bends / 2)),
+                                         y * set(1.3F) + set(17.0F), bends / 2, plan.seed[8] + 2U);
+        const Cells mesh = ring_cells(turn + bend * set(0.20F / net_columns),
+                                      hn::Max(y + other * set(0.22F), zero), net_columns, 0.0F,
+                                      net_stretch, 0.38F, plan.seed[8]);
+        const VF wide = set(0.06F) + (other + bend) * set(0.035F);
+        thread = (one - smooth(mesh.border - wide, 0.0F, 4.6F)) *
+                 unit(set(0.82F) + bend * set(0.35F) + fields[stem_broad] * set(0.3F));
     }
     // Where texels are too coarse for its threads, the net is their mean.
     thread = mix(set(0.35F), thread, set(plan.net_shown));
@@ -123,54 +132,104 @@ HWY_INLINE void add_stem_stain(const StemPlan& plan, VF along, const VF* fields,
     texel.occlusion = texel.occlusion * (one - stain * set(0.12F));
 }
 
-/// Adds the felt of the mycelium at the foot, and soil: whole below the ground, in clods just above
-/// it, in crumbs up to twice as high.
+/// Grains of one size that cling to a stem.
+struct Grains {
+    VF cover;   ///< 0..1
+    VF height;  ///< of a grain's dome, in its radii
+    VF tone;    ///< of the grain, -1..1
+};
+
+/// Returns the grains of one size: each cell has one or none.
+///
+/// density  0..1: share of cells that have one
+HWY_INLINE Grains grains_at(const StemPlan& plan, std::size_t size, VF turn, VF length,
+                            VF density) {
+    const VF one = set(1.0F), zero = set(0.0F);
+    const float n = plan.grains[size];
+    // Where texels are too coarse for grains, their mean.
+    const float seen = plan.grains_shown[size];
+    const VF mean = density * set(0.30F);
+    if (seen <= 0.0F || hn::AllTrue(Floats(), density <= zero)) return {mean, zero, zero};
+    const Cells cell =
+        ring_cells(turn, hn::Max(length * set(n), zero), n, 0.0F, 1.0F, 0.38F, plan.seed[9 + size]);
+    const VU lot = hash(cell.id);
+    const VF chance = upper_part(lot) * set(0.5F) + set(0.5F);
+    const VF radius =
+        (set(0.42F) + lower_part(lot) * set(0.20F)) * smooth(density - chance, 0.0F, 1.0F / 0.3F);
+    // Grains are angular, and neighbours press against each other.
+    const int cells = static_cast<int>(n) * 3;
+    const VF uneven = periodic_noise2(turn * set(n * 3.0F), length * set(n * 3.0F), cells,
+                                      plan.seed[9 + size] + 1U);
+    const VF far = cell.centre / hn::Max(radius, set(1e-3F)) + uneven * set(0.30F);
+    const VF inside = hn::Min(one - far, cell.border * set(6.0F));
+    const VF cover = smooth(inside, 0.0F, 4.5F);
+    const VF dome = hn::Sqrt(hn::Max(one - far * far, zero)) * (radius + uneven * set(0.08F));
+    return {mix(mean, cover, set(seen)), dome * cover * set(seen),
+            upper_part(hash(lot)) * set(seen)};
+}
+
+/// Adds one size of grains to a texel.
+HWY_INLINE void add_grains(const StemPlan& plan, std::size_t size, const Grains& grains,
+                           Layers& texel) {
+    const VF one = set(1.0F);
+    const VF cover = grains.cover;
+    // Humus is dark, sand is pale.
+    const VF pale = smooth(grains.tone, 0.55F, 2.2F) * set(0.5F);
+    const Rgb soil = mix(shaded(rgb(plan.soil_colour), set(1.5F) + grains.tone * set(0.8F)),
+                         Rgb{set(0.30F), set(0.24F), set(0.16F)}, pale);
+    texel.colour = mix(texel.colour, soil, cover);
+    texel.height = texel.height + grains.height * set(0.7F / plan.grains[size]);
+    texel.roughness = mix(texel.roughness, set(0.97F), cover);
+    texel.occlusion = texel.occlusion * (one - cover * set(0.10F));
+}
+
+/// Adds the felt of the mycelium at the foot, and soil: rubbed into the skin at the ground, whole
+/// below it, and grains that become fewer with height.
 HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const VF* fields,
                                 Layers& texel) {
     const VF one = set(1.0F);
+    const VF zero = set(0.0F);
     const VF height = (along - set(plan.foot)) * set(1.0F / plan.soil_reach);
-    if (hn::AllTrue(Floats(), height >= set(3.5F))) return;
+    // Beyond this height no noise can bring soil.
+    if (hn::AllTrue(Floats(), height >= set(4.4F))) return;
     const VF length = along * set(plan.aspect);
     const VF broad = fields[stem_broad];
     const VF middle = fields[stem_middle];
-    VF clods[2] = {set(0.0F), set(0.0F)};
-    for (std::size_t octave = 0; octave < 2; ++octave) {
-        if (plan.clods[octave] <= 0.0F) continue;
-        const float n = static_cast<float>(stem_clod_cells[octave]);
-        clods[octave] = periodic_noise2(turn * set(n), length * set(n), stem_clod_cells[octave],
-                                        plan.seed[9 + octave]) *
-                        set(plan.clods[octave]);
-    }
+    const VF thread = periodic_noise2(turn * set(34.0F) + broad * set(0.8F), length * set(8.0F), 34,
+                                      plan.seed[11]);
     if (plan.mycelium > 0.0F) {
-        const VF thread = periodic_noise2(turn * set(34.0F) + broad * set(0.8F), length * set(8.0F),
-                                          34, plan.seed[11]);
         const VF near =
             one - smooth(height + middle * set(0.6F) + broad * set(0.5F), 0.2F, 1.0F / 2.6F);
         const VF felt =
-            smooth(thread * set(0.55F) + clods[1] * set(0.3F) + near * set(1.3F), 0.7F, 1.8F) *
-            near * set(plan.mycelium);
+            smooth(thread * set(0.65F) + near * set(1.3F), 0.7F, 1.8F) * near * set(plan.mycelium);
         texel.colour = mix(texel.colour, Rgb{set(0.90F), set(0.88F), set(0.82F)}, felt);
         texel.height = texel.height + felt * (set(0.0015F) + thread * set(0.0015F));
         texel.roughness = mix(texel.roughness, set(0.95F), felt);
     }
-    if (plan.soil > 0.0F) {
-        const VF level = height + broad * set(0.5F) + middle * set(0.6F) + clods[0] * set(0.7F);
-        const VF whole = one - smooth(level, 0.25F, 1.0F / 0.9F);
-        // Crumbs are fewer with height.
-        const VF crumb = smooth(
-            clods[1] * set(0.8F) + clods[0] * set(0.5F) - hn::Max(height, set(0.0F)) * set(0.22F),
-            0.16F, 5.0F);
-        // Where texels are too coarse for crumbs, their mean.
-        const VF thin = hn::Max(one - hn::Max(height, set(0.0F)) * set(0.6F), set(0.0F));
-        const VF seen = mix(set(0.15F) * thin * thin, crumb, set(plan.clods[1]));
-        const VF soil = hn::Max(whole, seen) * set(plan.soil);
-        texel.colour = mix(texel.colour, rgb(plan.soil_colour), soil);
-        texel.shade = texel.shade * (one + soil * (clods[1] * set(0.55F) + clods[0] * set(0.25F)));
-        texel.height =
-            texel.height + soil * (set(0.002F) + clods[0] * set(0.0035F) + clods[1] * set(0.001F));
-        texel.roughness = mix(texel.roughness, set(0.97F), soil);
-        texel.occlusion = texel.occlusion * (one - soil * set(0.18F));
-    }
+    if (plan.soil <= 0.0F) return;
+    const VF amount = set(plan.soil);
+    const VF level = height * set(1.25F) + broad * set(0.6F) + middle * set(0.55F) - set(0.8F);
+    // Fine soil is rubbed into the skin; it stays in the furrows between fibres. A thin film lets the
+    // skin through, and tints it.
+    const VF uneven = level + thread * set(0.3F);
+    const VF rubbed = (set(0.70F) * (one - smooth(uneven, -0.9F, 1.0F / 1.9F)) +
+                       set(0.30F) * (one - smooth(uneven, -0.1F, 1.0F / 2.4F))) *
+                      amount;
+    texel.colour = mix(texel.colour,
+                       Rgb{texel.colour.r * set(plan.film.r), texel.colour.g * set(plan.film.g),
+                           texel.colour.b * set(plan.film.b)},
+                       rubbed);
+    texel.colour = mix(texel.colour, rgb(plan.soil_colour), rubbed * rubbed * set(0.8F));
+    texel.roughness = mix(texel.roughness, set(0.95F), rubbed);
+    const VF whole = (one - smooth(level, -0.8F, 1.0F / 0.8F)) * amount;
+    texel.colour = mix(texel.colour, rgb(plan.soil_colour), whole);
+    const VF fine = one - smooth(level, -0.9F, 1.0F / 3.2F);
+    const VF coarse = one - smooth(level + thread * set(0.2F), -1.0F, 1.0F / 2.6F);
+    add_grains(plan, 1, grains_at(plan, 1, turn, length, fine * fine * amount), texel);
+    add_grains(plan, 0, grains_at(plan, 0, turn, length, coarse * coarse * set(0.8F) * amount),
+               texel);
+    texel.occlusion = texel.occlusion * (one - whole * set(0.2F));
+    texel.height = texel.height + hn::Max(whole, zero) * set(0.003F);
 }
 
 /// Returns a texel of the stem. along: 0 at its base, which may be in the ground, 1 at the top; turn:
@@ -249,7 +308,7 @@ HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* 
     const VF fade_out = one - set(0.5F) * across;
     out.colour = shaded(
         colour, one + thread * set(0.13F) * fade_out + cloud * set(0.05F) + grain * set(0.06F));
-    out.height = thread * set(0.16F / 92.0F) * fade_out + grain * set(0.14F / 160.0F);
+    out.height = thread * set(0.16F / 92.0F) * fade_out + grain * set(0.05F / 160.0F);
     out.roughness = set(plan.roughness) + grain * set(0.05F);
     // The fold at the attachment is in shade.
     out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) +
