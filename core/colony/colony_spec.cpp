@@ -31,10 +31,13 @@ bool has_cap_on_stem(GrowthForm form) {
         case GrowthForm::shelving_agaric:
         case GrowthForm::puffball:
         case GrowthForm::earthstar:
+        case GrowthForm::false_morel:
+        case GrowthForm::trumpet:
         case GrowthForm::jelly:
         case GrowthForm::coral:
         case GrowthForm::antler:
         case GrowthForm::crust:
+        case GrowthForm::cushion:
         case GrowthForm::nest:
         case GrowthForm::cage:
             return false;

@@ -16,14 +16,17 @@ enum class GrowthForm {
     bracket,
     shelving_agaric,
     morel,
+    false_morel,
     puffball,
     earthstar,
     tooth,
+    trumpet,
     jelly,
     stinkhorn,
     coral,
     antler,
     crust,
+    cushion,
     nest,
     cage
 };
@@ -46,12 +49,16 @@ constexpr const char* name(GrowthForm form) {
             return "shelving_agaric";
         case GrowthForm::morel:
             return "morel";
+        case GrowthForm::false_morel:
+            return "false_morel";
         case GrowthForm::puffball:
             return "puffball";
         case GrowthForm::earthstar:
             return "earthstar";
         case GrowthForm::tooth:
             return "tooth";
+        case GrowthForm::trumpet:
+            return "trumpet";
         case GrowthForm::jelly:
             return "jelly";
         case GrowthForm::stinkhorn:
@@ -62,6 +69,8 @@ constexpr const char* name(GrowthForm form) {
             return "antler";
         case GrowthForm::crust:
             return "crust";
+        case GrowthForm::cushion:
+            return "cushion";
         case GrowthForm::nest:
             return "nest";
         case GrowthForm::cage:

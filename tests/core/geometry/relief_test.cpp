@@ -158,7 +158,8 @@ TEST(Relief, MeshesAreValidAtEveryDetailAndTheFinestIsFiner) {
                     ADD_FAILURE() << id << ", lod " << lod << ": " << defect;
                 EXPECT_GT(volume(mesh), 0.0);
                 const Mesh none = swept_mesh(with(individual, ReliefStyle{}), lod);
-                EXPECT_EQ(mesh.indices, none.indices) << "depths move vertices only";
+                EXPECT_EQ(mesh.indices, none.indices)
+                    << id << ", lod " << lod << ": depths move vertices only";
                 EXPECT_LT(distance(bounds(mesh), bounds(none)), 0.05 * diagonal(bounds(none)));
             }
     EXPECT_GT(carried_relief(kinds()[1], 96, 60).pits, 0.99);
