@@ -61,6 +61,24 @@ Sloped beside_middle(double x) {
     return {rest * rest, -4.0 * x * rest};
 }
 
+/// Turns the normal and the tangent of a vertex of which one coordinate has been moved.
+///
+/// moved  index of the coordinate
+/// by     derivatives of the moved coordinate by the three old ones
+void turn_with(Mesh& mesh, std::size_t vertex, glm::length_t moved, const glm::dvec3& by) {
+    glm::dvec3 normal(mesh.normals[vertex]);
+    normal[moved] /= by[moved];
+    for (glm::length_t k = 0; k < 3; ++k)
+        if (k != moved) normal[k] -= by[k] * normal[moved];
+    normal = glm::normalize(normal);
+    mesh.normals[vertex] = glm::vec3(normal);
+    if (mesh.tangents.empty()) return;
+    glm::dvec3 tangent(mesh.tangents[vertex]);
+    tangent[moved] = by.x * tangent.x + by.y * tangent.y + by.z * tangent.z;
+    tangent = glm::normalize(tangent - glm::dot(tangent, normal) * normal);
+    mesh.tangents[vertex] = glm::vec4(glm::vec3(tangent), mesh.tangents[vertex].w);
+}
+
 }  // namespace
 
 BracketBase::BracketBase(const Individual& individual) {
@@ -112,17 +130,7 @@ void BracketBase::apply(Mesh& mesh) const {
         const double by_y = 1.0 + amount * wave.value * share.value;
         const double by_z = over * amount * wave.value * share.slope / reach_;
         mesh.positions[i].y = static_cast<float>(middle_ + over * by_y);
-        glm::dvec3 normal(mesh.normals[i]);
-        normal.y /= by_y;
-        normal.x -= by_x * normal.y;
-        normal.z -= by_z * normal.y;
-        normal = glm::normalize(normal);
-        mesh.normals[i] = glm::vec3(normal);
-        if (mesh.tangents.empty()) continue;
-        glm::dvec3 tangent(mesh.tangents[i]);
-        tangent.y = by_x * tangent.x + by_y * tangent.y + by_z * tangent.z;
-        tangent = glm::normalize(tangent - glm::dot(tangent, normal) * normal);
-        mesh.tangents[i] = glm::vec4(glm::vec3(tangent), mesh.tangents[i].w);
+        turn_with(mesh, i, 1, {by_x, by_y, by_z});
     }
 }
 
@@ -135,16 +143,7 @@ void wrap_round_trunk(Mesh& mesh, double radius) {
         position.z -= static_cast<float>(radius * back.value * share.value);
         // The derivatives of the new z by the old x and z; those of the other coordinates are 0 or 1.
         const double by_x = -back.slope * share.value, by_z = 1.0 - back.value * share.slope;
-        glm::dvec3 normal(mesh.normals[i]);
-        normal.z /= by_z;
-        normal.x -= by_x * normal.z;
-        normal = glm::normalize(normal);
-        mesh.normals[i] = glm::vec3(normal);
-        if (mesh.tangents.empty()) continue;
-        glm::dvec3 tangent(mesh.tangents[i]);
-        tangent.z = by_x * tangent.x + by_z * tangent.z;
-        tangent = glm::normalize(tangent - glm::dot(tangent, normal) * normal);
-        mesh.tangents[i] = glm::vec4(glm::vec3(tangent), mesh.tangents[i].w);
+        turn_with(mesh, i, 2, {by_x, 0.0, by_z});
     }
 }
 
