@@ -161,7 +161,7 @@ HWY_INLINE Grains grains_at(const StemPlan& plan, std::size_t size, VF turn, VF 
     const VF uneven = periodic_noise2(turn * set(n * 3.0F), length * set(n * 3.0F), cells,
                                       plan.seed[9 + size] + 1U);
     const VF far = cell.centre / hn::Max(radius, set(1e-3F)) + uneven * set(0.30F);
-    const VF inside = hn::Min(one - far, cell.border * set(6.0F));
+    const VF inside = hn::Min(hn::Min(one - far, cell.border * set(6.0F)), radius * set(40.0F));
     const VF cover = smooth(inside, 0.0F, 4.5F);
     const VF dome = hn::Sqrt(hn::Max(one - far * far, zero)) * (radius + uneven * set(0.08F));
     return {mix(mean, cover, set(seen)), dome * cover * set(seen),
