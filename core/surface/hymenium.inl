@@ -174,7 +174,9 @@ HWY_INLINE void add_slots(const HymeniumPlan& plan, const DiscPoint& p, VF share
     const VF carried = one - (one - smooth(share, 0.55F * plan.inner_gap, plan.bare_slope)) *
                                  set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
     depth = depth * carried;
-    const VF deep = depth * depth;
+    VF deep = depth * depth;
+    // Towards the rim gills and ridges are low, and light reaches the bottom between them.
+    if (plan.pattern <= 2) deep = deep * (one - smooth(share, 0.72F, 4.0F) * set(0.75F));
     // Edge, face and bottom of the slot; the bottom is darkened by the relief.
     const VF on_edge =
         (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +

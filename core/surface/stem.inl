@@ -200,8 +200,12 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     if (plan.mycelium > 0.0F) {
         const VF near =
             one - smooth(height + middle * set(0.6F) + broad * set(0.5F), 0.2F, 1.0F / 2.6F);
+        // Its threads are finer than any furrow of the skin, and lie over each other.
+        const VF strand = periodic_noise2(turn * set(117.0F) + thread * set(0.9F),
+                                          length * set(46.0F), 117, plan.seed[11] + 1U);
         const VF felt =
-            smooth(thread * set(0.65F) + near * set(1.3F), 0.7F, 1.8F) * near * set(plan.mycelium);
+            smooth(strand * set(0.35F) + thread * set(0.2F) + near * set(1.2F), 0.45F, 1.1F) *
+            near * set(plan.mycelium);
         texel.colour = mix(texel.colour, Rgb{set(0.90F), set(0.88F), set(0.82F)}, felt);
         texel.height = texel.height + felt * (set(0.0015F) + thread * set(0.0015F));
         texel.roughness = mix(texel.roughness, set(0.95F), felt);
