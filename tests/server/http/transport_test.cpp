@@ -991,12 +991,13 @@ TEST(Transport, BoundsTheMemoryOfSlowClientsByAbortingTheSlowest) {
         std::this_thread::sleep_for(5ms);
     EXPECT_GE(load().aborted_responses, 9u) << "three buffers fit beside the shared one";
     EXPECT_LE(load().pinned, options.most_pinned);
-    const std::uint64_t before = load().aborted_responses;
     RawClient short_timeouts(server.port());
     for (int i = 0; i < 10; ++i)
         EXPECT_EQ(short_timeouts.ask("GET /own HTTP/1.1\r\n\r\n").body.size(), 4 * megabyte)
             << "a reading client is not aborted";
-    EXPECT_LE(load().aborted_responses, before + 10);
+    // Which of the slow ones make room is a matter of timing: while one that shares a buffer is the
+    // slowest, all that share it have to go.
+    EXPECT_LE(load().aborted_responses, slow.size());
 
     slow.clear();
     for (int i = 0; i < 2000 && load().pinned > 0; ++i) std::this_thread::sleep_for(5ms);
