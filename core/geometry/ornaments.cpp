@@ -152,13 +152,12 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
         const double up = static_cast<double>(i) / (solid.rows - 1);
         const double narrowing = (1.0 - up) * (1.0 + bulge * up * (1.0 - spine_hollow * pointed));
         const double risen = up * (1.0 + crumbled * crumb_top * (1.0 - up));
-        const bool between = i > 0 && i + 1 < solid.rows;
+        const double crumb = i > 0 && i + 1 < solid.rows ? crumbled : 0.0;
         const std::size_t ring = static_cast<std::size_t>(up * crumb_rings * 0.999);
         for (int j = 0; j < sides; ++j) {
             const auto side = static_cast<std::size_t>(j);
             const auto [across, upwards] =
                 stray[7 * ring + side * 7 / static_cast<std::size_t>(sides)];
-            const double crumb = between ? crumbled : 0.0;
             const double rise =
                 i == 0 ? -patch_depth * radius : height * (risen + crumb * upwards * up);
             solid.corners.push_back(frame.centre + up * tip + rise * frame.normal +

@@ -132,53 +132,41 @@ HWY_INLINE void add_stem_stain(const StemPlan& plan, VF along, const VF* fields,
     texel.occlusion = texel.occlusion * (one - stain * set(0.12F));
 }
 
-/// Grains of one size that cling to a stem.
-struct Grains {
-    VF cover;   ///< 0..1
-    VF height;  ///< of a grain's dome, in its radii
-    VF tone;    ///< of the grain, -1..1
-};
-
-/// Returns the grains of one size: each cell has one or none.
+/// Adds grains of soil of one size: each cell has one or none.
 ///
 /// density  0..1: share of cells that have one
-HWY_INLINE Grains grains_at(const StemPlan& plan, std::size_t size, VF turn, VF length,
-                            VF density) {
+HWY_INLINE void add_grains(const StemPlan& plan, std::size_t size, VF turn, VF length, VF density,
+                           Layers& texel) {
     const VF one = set(1.0F), zero = set(0.0F);
     const float n = plan.grains[size];
     // Where texels are too coarse for grains, their mean.
     const float seen = plan.grains_shown[size];
-    const VF mean = density * set(0.30F);
-    if (seen <= 0.0F || hn::AllTrue(Floats(), density <= zero)) return {mean, zero, zero};
-    const Cells cell =
-        ring_cells(turn, hn::Max(length * set(n), zero), n, 0.0F, 1.0F, 0.38F, plan.seed[9 + size]);
-    const VU lot = hash(cell.id);
-    const VF chance = upper_part(lot) * set(0.5F) + set(0.5F);
-    const VF radius =
-        (set(0.42F) + lower_part(lot) * set(0.20F)) * smooth(density - chance, 0.0F, 1.0F / 0.3F);
-    // Grains are angular, and neighbours press against each other.
-    const int cells = static_cast<int>(n) * 3;
-    const VF uneven = periodic_noise2(turn * set(n * 3.0F), length * set(n * 3.0F), cells,
-                                      plan.seed[9 + size] + 1U);
-    const VF far = cell.centre / hn::Max(radius, set(1e-3F)) + uneven * set(0.30F);
-    const VF inside = hn::Min(hn::Min(one - far, cell.border * set(6.0F)), radius * set(40.0F));
-    const VF cover = smooth(inside, 0.0F, 4.5F);
-    const VF dome = hn::Sqrt(hn::Max(one - far * far, zero)) * (radius + uneven * set(0.08F));
-    return {mix(mean, cover, set(seen)), dome * cover * set(seen),
-            upper_part(hash(lot)) * set(seen)};
-}
-
-/// Adds one size of grains to a texel.
-HWY_INLINE void add_grains(const StemPlan& plan, std::size_t size, const Grains& grains,
-                           Layers& texel) {
-    const VF one = set(1.0F);
-    const VF cover = grains.cover;
+    VF cover = density * set(0.30F), dome = zero, tone = zero;
+    if (seen > 0.0F && !hn::AllTrue(Floats(), density <= zero)) {
+        const Cells cell = ring_cells(turn, hn::Max(length * set(n), zero), n, 0.0F, 1.0F, 0.38F,
+                                      plan.seed[9 + size]);
+        const VU lot = hash(cell.id);
+        const VF chance = upper_part(lot) * set(0.5F) + set(0.5F);
+        const VF radius = (set(0.42F) + lower_part(lot) * set(0.20F)) *
+                          smooth(density - chance, 0.0F, 1.0F / 0.3F);
+        // Grains are angular, and neighbours press against each other.
+        const int cells = static_cast<int>(n) * 3;
+        const VF uneven = periodic_noise2(turn * set(n * 3.0F), length * set(n * 3.0F), cells,
+                                          plan.seed[9 + size] + 1U);
+        const VF far = cell.centre / hn::Max(radius, set(1e-3F)) + uneven * set(0.30F);
+        const VF inside = hn::Min(hn::Min(one - far, cell.border * set(6.0F)), radius * set(40.0F));
+        const VF whole = smooth(inside, 0.0F, 4.5F);
+        cover = mix(cover, whole, set(seen));
+        dome = hn::Sqrt(hn::Max(one - far * far, zero)) * (radius + uneven * set(0.08F)) * whole *
+               set(seen);
+        tone = upper_part(hash(lot)) * set(seen);
+    }
     // Humus is dark, sand is pale.
-    const VF pale = smooth(grains.tone, 0.55F, 2.2F) * set(0.5F);
-    const Rgb soil = mix(shaded(rgb(plan.soil_colour), set(1.5F) + grains.tone * set(0.8F)),
+    const VF pale = smooth(tone, 0.55F, 2.2F) * set(0.5F);
+    const Rgb soil = mix(shaded(rgb(plan.soil_colour), set(1.5F) + tone * set(0.8F)),
                          Rgb{set(0.30F), set(0.24F), set(0.16F)}, pale);
     texel.colour = mix(texel.colour, soil, cover);
-    texel.height = texel.height + grains.height * set(0.7F / plan.grains[size]);
+    texel.height = texel.height + dome * set(0.7F / n);
     texel.roughness = mix(texel.roughness, set(0.97F), cover);
     texel.occlusion = texel.occlusion * (one - cover * set(0.10F));
 }
@@ -188,7 +176,6 @@ HWY_INLINE void add_grains(const StemPlan& plan, std::size_t size, const Grains&
 HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const VF* fields,
                                 Layers& texel) {
     const VF one = set(1.0F);
-    const VF zero = set(0.0F);
     const VF height = (along - set(plan.foot)) * set(1.0F / plan.soil_reach);
     // Beyond this height no noise can bring soil.
     if (hn::AllTrue(Floats(), height >= set(4.4F))) return;
@@ -229,11 +216,10 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     texel.colour = mix(texel.colour, rgb(plan.soil_colour), whole);
     const VF fine = one - smooth(level, -0.9F, 1.0F / 3.2F);
     const VF coarse = one - smooth(level + thread * set(0.2F), -1.0F, 1.0F / 2.6F);
-    add_grains(plan, 1, grains_at(plan, 1, turn, length, fine * fine * amount), texel);
-    add_grains(plan, 0, grains_at(plan, 0, turn, length, coarse * coarse * set(0.8F) * amount),
-               texel);
+    add_grains(plan, 1, turn, length, fine * fine * amount, texel);
+    add_grains(plan, 0, turn, length, coarse * coarse * set(0.8F) * amount, texel);
     texel.occlusion = texel.occlusion * (one - whole * set(0.2F));
-    texel.height = texel.height + hn::Max(whole, zero) * set(0.003F);
+    texel.height = texel.height + whole * set(0.003F);
 }
 
 /// Returns a texel of the stem. along: 0 at its base, which may be in the ground, 1 at the top; turn:
