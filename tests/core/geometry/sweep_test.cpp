@@ -387,8 +387,8 @@ TEST(Sweep, TangentsPointAlongTheTextureAndHandednessUpTheImage) {
             }
         }
         // The remaining ones are at corners of coarse triangles round poles, tips and torn edges,
-        // where the arms of a net meet, round the tip of an oyster's foot, and on gills, whose rows of
-        // long thin triangles turn where they rise at the stem and end at the margin.
+        // where the arms of a net meet, and on gills, whose rows of long thin triangles turn where they
+        // rise at the stem and end at the margin; most of these are on the oyster's, near its foot.
         const bool netted = atlas().find(id)->species.stages.front().model.receptacle.meshes > 0;
         EXPECT_GT(agree, (solids ? 0.88 : netted ? 0.94 : 0.97) * count) << id;
         EXPECT_GT(handed, 0.97 * count) << id;

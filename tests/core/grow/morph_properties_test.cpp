@@ -183,7 +183,7 @@ TEST_P(SomePairs, NewPiecesBeginSmall) {
     // Sixteen times as close to its first appearance a piece is sixteen times as small; tested
     // along age, where amounts pass zero.
     const double size = diagonal(bounds(mesh_of(at(500))));
-    // Spines of one species stand on the columns of the mesh, which the splits of the other move.
+    // While such a mix grows, single spines move at a step, as a whole and by up to a millimetre.
     const double bar = has_spines(at(500)) ? 0.02 : 0.02 / 16.0;
     for (const double age : {0.0, 0.2, 0.3, 0.55, 0.6, 0.8, 0.85, 0.97}) {
         Mesh last = mesh_of(at(500, age));
