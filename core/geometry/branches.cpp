@@ -10,7 +10,10 @@
 #include <utility>
 
 #include "core/geometry/branch_plan.h"
+#include "core/geometry/joints.h"
+#include "core/geometry/ruffle.h"
 #include "core/geometry/spines.h"
+#include "core/geometry/tube.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -49,6 +52,10 @@ constexpr double radius_overlap = 0.15;
 /// 2 - pi / 2; how much denser rings are towards the end.
 constexpr double longest_round = 0.8, latest_ring = 0.6, round_end = 0.43, ring_density = 0.25;
 
+/// Length over which a tube takes on another radius and direction, in that radius: forks that are
+/// close to each other make no step.
+constexpr double turn_length = 1.6;
+
 /// Radius of a tube at its beginning, in that of its parent, so that it stays inside; how deep it
 /// begins in its parent, in radii of that and at most in distances from the ground.
 constexpr double inside_parent = 0.97, root_depth = 1.1, most_root_depth = 0.7;
@@ -66,68 +73,17 @@ constexpr std::uint32_t dent_count = 9;
 constexpr double lowest_dent = 0.35, least_dent = 0.7, most_dent = 1.2, least_reach = 0.3,
                  dent_distance = 0.7, dent_depth = 0.08, dent_reach = 1.6, dent_slope = 0.7;
 
-/// Waves of a ruffled segment: their size in its widths, their length in its half widths, and the
-/// largest turn from one ring to the next, beyond which they would alias.
-constexpr double ruffle_size = 0.6, ruffle_length = 3.8, most_ruffle_turn = 1.5;
-
 /// Size of a spine on a branch that has not begun to grow, in that of others; how far spines stand
 /// beside the middle of their branch, in its radii.
 constexpr double least_spine = 0.05, spine_spread = 0.6;
 
-/// Least number of sides of a tube that goes round the disc of the chart; fewer sides would cut its
-/// rings short.
-constexpr int round_sides = 6;
+/// Turn of the texture from the beginning of a tube to its tip, in that of its segment from the mean.
+constexpr double texture_twist = 0.35;
 
-/// A cross-section of a tube.
-struct Station {
-    glm::dvec3 at{0.0}, along{0.0, 1.0, 0.0};
-    glm::dmat3 flat{0.0};  ///< flattening: sum of outer squares of unit vectors
-    double radius = 0.0, wide = 1.0, thin = 1.0;  ///< factors along the flattening and across it
-    double at_fork = 0.0;                         ///< 0..1: closeness to a fork
-    double colour = 0.0;  ///< see BranchGraph::Node::from_tip; for a trunk the share of its length
-    double few = 0.0;     ///< see BranchGraph::Node::few
-};
-
-/// The waves of the two edges of a flat segment, against each other as of a twisted ribbon. They are
-/// linear in the sum of squares that flattens the segment, so that it may turn into another plane
-/// without a jump.
-class Ruffle {
-  public:
-    /// amount  0..1; phase: of the segment
-    Ruffle(double amount, double phase) : amount_(amount), phase_(phase) {}
-
-    /// Moves on to the next ring of the segment.
-    void advance(const Station& station) {
-        const double width = station.radius * (station.wide - station.thin);
-        size_ = amount_ * ruffle_size * width;
-        if (size_ <= 0.0) return;
-        if (begun_) {
-            const double turn = std::min(2.0 * pi * glm::distance(station.at, last_) /
-                                             (ruffle_length * station.radius * station.wide),
-                                         most_ruffle_turn);
-            phase_ += turn;
-            turned_ += turn;
-        }
-        // Waves grow from nothing, since a segment begins with the last ring of what bears it.
-        size_ *= std::min(turned_ / most_ruffle_turn, 1.0);
-        along_ = station.along;
-        flat_ = station.flat;
-        last_ = station.at;
-        begun_ = true;
-    }
-
-    /// Returns the displacement of the corner in a direction from the middle of the ring, metres.
-    [[nodiscard]] glm::dvec3 displacement(const glm::dvec3& out) const {
-        if (size_ <= 0.0) return glm::dvec3(0.0);
-        return size_ * sine(phase_) * glm::cross(along_, flat_ * out);
-    }
-
-  private:
-    double amount_, phase_, turned_ = 0.0, size_ = 0.0;
-    glm::dvec3 along_{0.0}, last_{0.0};
-    glm::dmat3 flat_{0.0};
-    bool begun_ = false;
-};
+/// Piece of a ring of the chart that goes half round a tube of few sides, whose long edges would cut
+/// a longer one short, radians; least number of sides of the others.
+constexpr double short_piece = 0.7;
+constexpr std::uint32_t round_sides = 6;
 
 glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
 
@@ -209,10 +165,10 @@ class TubeBuilder {
           spine_detail_(spine_detail(individual.spines, level)),
           plan_(branch_plan(graph_, individual.spines, level)),
           seed_(individual.effective.seed),
-          full_disc_(level < 2),
           options_(options),
           represented_(graph_.nodes.size(), 1.0),
-          built_(graph_.nodes.size()) {
+          built_(graph_.nodes.size()),
+          tube_of_(graph_.nodes.size(), Tube::none) {
         count_dropped_tips();
         lean_to_dropped_tips();
     }
@@ -221,13 +177,14 @@ class TubeBuilder {
         const auto vertices = static_cast<std::size_t>(plan_.count.vertices);
         mesh_.positions.reserve(vertices);
         mesh_.normals.reserve(vertices);
-        mesh_.texture_coordinates.reserve(vertices);
+        colours_.reserve(vertices);
         mesh_.indices.reserve(3 * static_cast<std::size_t>(plan_.count.triangles));
         for (const TubeChain& chain : plan_.chains) add_chain(chain);
-        if (options_.textured)
+        blend_joints(mesh_, colours_, tubes_);
+        if (options_.textured) {
+            add_texture_coordinates();
             add_tangents(mesh_);
-        else
-            mesh_.texture_coordinates.clear();
+        }
         return std::move(mesh_);
     }
 
@@ -456,14 +413,20 @@ class TubeBuilder {
     // Returns the stations of a segment that forks at its end, where it widens into both segments
     // that leave it.
     std::vector<Station> fork_stations(const Station& from, std::uint32_t i, int steps) const {
-        const glm::dvec3 arriving = fork_tangent(i);
-        const glm::dmat3 flat = square_of(node(i).across);
+        // A short segment takes on only a part of the shape of the fork at its end; one that has
+        // hardly begun to exist takes on all of it, so that it vanishes there.
+        const double length = glm::distance(from.at, node(i).place);
+        const double slow = turn_length * node(i).presence * radius_at(i);
+        const double taken = (length + 1e-12) / (length + slow + 1e-12);
+        const glm::dvec3 arriving =
+            unit_or(from.along + taken * (fork_tangent(i) - from.along), fork_tangent(i));
+        const glm::dmat3 flat = from.flat + taken * (square_of(node(i).across) - from.flat);
         std::vector<Station> stations;
         for (int k = 1; k <= steps; ++k) {
             const double t = static_cast<double>(k) / steps;
-            Station s =
-                station_on_path(from, i, arriving, flat, t, smooth_step(fork_begins, 1.0, t));
-            s.radius = from.radius + smooth_step(-radius_overlap, 1.0 + radius_overlap, t) *
+            Station s = station_on_path(from, i, arriving, flat, t,
+                                        taken * smooth_step(fork_begins, 1.0, t));
+            s.radius = from.radius + smooth_step(-radius_overlap, 1.0 + radius_overlap, t) * taken *
                                          (radius_at(i) - from.radius);
             stations.push_back(s);
         }
@@ -509,11 +472,15 @@ class TubeBuilder {
         const int sides = tube_columns(graph_, chain, plan_.detail);
         Station begin;
         std::vector<Station> stations;
+        std::vector<std::pair<std::uint32_t, std::size_t>> ends;  // nodes and their stations
+        Tube tube;
         const std::uint32_t first = chain.nodes.front();
         const std::uint32_t parent = node(first).parent;
         if (chain.root) {
-            begin = add_trunk(first, sides);
+            begin = add_trunk(first, sides, tube);
         } else {
+            tube.parent = tube_of_[parent];
+            tube.shown = 1;
             // A tube begins inside its parent: a twig at its side, one of two equal branches as
             // wide as the parent.
             const Node& parent_end = node(parent);
@@ -547,16 +514,21 @@ class TubeBuilder {
             inside.radius = 0.0;
             stations.push_back(inside);
         }
+        if (chain.root) ends.emplace_back(first, 0);
         stations.push_back(begin);
-        if (chain.root) built_[first] = begin;
         const auto extend_to = [&](std::uint32_t end) {
             const Station from = stations.back();
             add_segment(stations, from, end, chain.skips_forks());
-            built_[end] = stations.back();
+            ends.emplace_back(end, stations.size() - 1);
         };
         for (const std::size_t fork : chain.forks) extend_to(chain.nodes[fork]);
         extend_to(chain.nodes.back());
-        add_tube(chain, stations, sides);
+        set_sides(stations, chain.root ? begin.side : node(parent).across);
+        if (!chain.root) set_turns(stations, built_[parent], segment_turn(first));
+        for (const auto& [end, station] : ends) built_[end] = stations[station];
+        add_tube(chain, stations, sides, tube);
+        for (const std::uint32_t i : chain.nodes) tube_of_[i] = tubes_.size();
+        tubes_.push_back(std::move(tube));
         const double presence = node(chain.nodes.back()).presence;
         for (std::size_t i = chain.root ? 0 : 1; i + 1 < stations.size(); ++i) {
             const Station &from = stations[i], &to = stations[i + 1];
@@ -595,7 +567,7 @@ class TubeBuilder {
 
     // Appends the rows of a trunk from the ground to its lowest fork, and returns the last one,
     // where the tube above begins.
-    Station add_trunk(std::uint32_t root, int sides) {
+    Station add_trunk(std::uint32_t root, int sides, Tube& tube) {
         const Node& top = node(root);
         const TubeDetail& detail = plan_.detail;
         const auto rings = static_cast<std::size_t>(trunk_ring_count(top, detail));
@@ -606,7 +578,7 @@ class TubeBuilder {
         end.radius = 0.0;
         stations.insert(stations.begin(), end);
         const auto row = static_cast<std::uint32_t>(sides + 1);
-        side_ = square_to(stations.front().along, top.across);
+        set_sides(stations, top.across);
         const std::uint32_t base = add_rows(stations, sides, 1, true, 0.0);
         const bool shown = options_.keep_absent || node(root).presence >= least_presence;
         for (std::uint32_t i = 0; shown && i + 1 < stations.size(); ++i)
@@ -617,29 +589,29 @@ class TubeBuilder {
             }
         Station begin = stations.back();
         begin.colour = 1.0;
+        tube.rows.push_back({base, static_cast<std::uint32_t>(sides), true, 0, stations.size()});
+        tube.trunk = stations.size();
+        tube.stations = std::move(stations);
         return begin;
     }
 
     // Appends one tube: its rows, and the point at its tip.
-    void add_tube(const TubeChain& chain, const std::vector<Station>& stations, int sides) {
+    void add_tube(const TubeChain& chain, const std::vector<Station>& stations, int sides,
+                  Tube& tube) {
         const auto row = static_cast<std::uint32_t>(sides);
         const Node& tip = node(chain.nodes.back());
-        const std::uint32_t start = node(chain.nodes.front()).parent;
-        const double turn =
-            chain.root
-                ? 0.0
-                : 2.0 * pi * Random(seed_, purposes::segment_turns, chain.nodes.front()).uniform();
-        // The tube above a trunk begins with the very ring in which the trunk ends.
-        if (!chain.root) side_ = square_to(stations.front().along, node(start).across);
+        const double phase = chain.root ? 0.0 : segment_turn(chain.nodes.front());
         const std::uint32_t base =
-            add_rows(stations, sides, sides / tube_sides(chain, plan_.detail), false, turn);
+            add_rows(stations, sides, sides / tube_sides(chain, plan_.detail), false, phase);
         const auto end = static_cast<std::uint32_t>(mesh_.positions.size());
-        const double colour = colour_of(tip.from_tip);
-        const auto [s, c] = sine_cosine(turn);
-        const auto at = disc_point(swept_charts[index_of(Part::cap)], colour, c, s);
         mesh_.positions.emplace_back(tip.place);
         mesh_.normals.emplace_back(tip.heading);
-        mesh_.texture_coordinates.emplace_back(at.u, at.v);
+        colours_.push_back(tip.from_tip);
+        // The first ring of the tube above a trunk is the last one of the trunk.
+        const std::size_t begun = chain.root ? tube.stations.size() - 1 : 0;
+        tube.rows.push_back({base, row, false, begun, stations.size()});
+        tube.stations.insert(tube.stations.end(), stations.begin() + (chain.root ? 1 : 0),
+                             stations.end());
         if (!options_.keep_absent && !is_present(graph_, chain)) return;
         const auto count = static_cast<std::uint32_t>(stations.size());
         for (std::uint32_t i = 0; i + 1 < count; ++i)
@@ -657,11 +629,12 @@ class TubeBuilder {
         }
     }
 
-    // Appends the vertices of all rows. Columns of a trunk end with a repeated one (strip chart);
-    // those of branches meet round the disc of the chart. Of columns that only species of few
-    // segments need there are `times` as many; other species draw the same polygon without them.
+    // Appends the vertices of all rows and their colours. Columns of a trunk end with a repeated one
+    // (strip chart); those of branches meet round the disc of the chart. Of columns that only
+    // species of few segments need there are `times` as many; other species draw the same polygon
+    // without them. `phase` is that of a ruffle.
     std::uint32_t add_rows(const std::vector<Station>& stations, int sides, int times, bool strip,
-                           double turn) {
+                           double phase) {
         const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
         const auto columns = static_cast<std::size_t>(sides);
         std::vector<glm::dvec3> places, outs;
@@ -675,16 +648,15 @@ class TubeBuilder {
                 2.0 * pi * static_cast<double>(j % static_cast<std::size_t>(times)) / sides;
             if (past > 0.0) reach[j] *= cosine(corner) / cosine(past - corner);
         }
-        Ruffle ruffle(strip ? 0.0 : graph_.ruffle, turn);
+        Ruffle ruffle(strip ? 0.0 : graph_.ruffle, phase);
         for (std::size_t i = 0; i < stations.size(); ++i) {
             const Station& station = stations[i];
-            if (i > 0) transport_side(stations[i - 1].along, station.along);
             ruffle.advance(station);
-            const glm::dvec3 third = glm::cross(side_, station.along);
+            const glm::dvec3 third = glm::cross(station.side, station.along);
             for (std::size_t j = 0; j < columns; ++j) {
                 const auto [s, c] =
                     sine_cosine(2.0 * pi * static_cast<double>(j) / static_cast<double>(sides));
-                const glm::dvec3 out = c * side_ + s * third;
+                const glm::dvec3 out = c * station.side + s * third;
                 glm::dvec3 moved =
                     station.thin * out + (station.wide - station.thin) * (station.flat * out);
                 moved -= glm::dot(moved, station.along) * station.along;
@@ -708,20 +680,38 @@ class TubeBuilder {
                 mesh_.normals.emplace_back(
                     normal(stations[i], outs[here], places[right] - places[left],
                            common ? stations[i].along : places[above] - places[below]));
-                texture(stations[i], sides, strip, static_cast<double>(j) / sides, turn);
+                colours_.push_back(strip ? 1.0 : stations[i].colour);
             }
         return base;
     }
 
-    // Transports the direction of column 0 without twist.
-    void transport_side(const glm::dvec3& before, const glm::dvec3& along) {
-        const double between = glm::dot(before, along);
-        if (between > -0.999) {
-            const glm::dvec3 about = glm::cross(before, along);
-            side_ += glm::cross(about, side_) +
-                     glm::cross(about, glm::cross(about, side_)) / (1.0 + between);
+    // Sets the direction of column 0 of all rows: the first as given, the others without twist.
+    static void set_sides(std::vector<Station>& stations, const glm::dvec3& first) {
+        stations.front().side = square_to(stations.front().along, first);
+        for (std::size_t i = 1; i < stations.size(); ++i) {
+            const Station& before = stations[i - 1];
+            stations[i].side =
+                square_to(stations[i].along, carried(before.side, before.along, stations[i].along));
         }
-        side_ = square_to(along, side_);
+    }
+
+    // Sets where the texture of a tube lies on the chart: where it leaves its parent, the texture goes
+    // on from one to the other; further on it is turned, so that the two are not alike.
+    static void set_turns(std::vector<Station>& stations, const Station& fork, double turn) {
+        const glm::dvec3 side = stations.front().side;
+        const double from_fork = arc_tangent(glm::dot(side, glm::cross(fork.side, fork.along)),
+                                             glm::dot(side, fork.side));
+        for (Station& station : stations) {
+            const double way =
+                1.0 - std::clamp(station.colour / std::max(fork.colour, 1e-9), 0.0, 1.0);
+            station.turn = fork.turn + texture_twist * (turn - pi) * way;
+            station.phase = fork.phase + from_fork / (2.0 * pi);
+        }
+    }
+
+    // Returns an angle of a tube that begins with a segment, radians.
+    [[nodiscard]] double segment_turn(std::uint32_t first) const {
+        return 2.0 * pi * Random(seed_, purposes::segment_turns, first).uniform();
     }
 
     static glm::dvec3 normal(const Station& station, const glm::dvec3& out, const glm::dvec3& round,
@@ -738,33 +728,53 @@ class TubeBuilder {
         return power(from_tip, colour_exponent_);
     }
 
-    void texture(const Station& station, int sides, bool strip, double round, double turn) {
-        TexturePoint at{};
-        if (strip) {
-            at = strip_point(swept_charts[index_of(Part::stem)], station.colour, round);
-        } else {
-            // A polygon cuts the rings of the disc short: tubes of few sides use a piece of a ring,
-            // there and back.
-            const double angle = turn + (full_disc_ && sides >= round_sides
-                                             ? 2.0 * pi * round
-                                             : 0.7 * (1.0 - std::abs(2.0 * round - 1.0)));
-            const auto [s, c] = sine_cosine(angle);
-            at = disc_point(swept_charts[index_of(Part::cap)], colour_of(station.colour), c, s);
-        }
-        mesh_.texture_coordinates.emplace_back(at.u, at.v);
+    // Sets the texture coordinates of all rows and tips.
+    void add_texture_coordinates() {
+        mesh_.texture_coordinates.resize(mesh_.positions.size());
+        for (const Tube& tube : tubes_)
+            for (const TubeRows& rows : tube.rows) {
+                std::size_t vertex = rows.first_vertex;
+                for (std::size_t row = 0; row < rows.count; ++row) {
+                    const Station& station = tube.stations[rows.from + row];
+                    for (std::uint32_t column = 0; column < rows.width(); ++column, ++vertex) {
+                        const double round = static_cast<double>(column) / rows.sides;
+                        const auto at =
+                            rows.strip ? strip_point(swept_charts[index_of(Part::stem)],
+                                                     station.colour, round)
+                                       : branch_point(colours_[vertex], station, rows.sides, round);
+                        mesh_.texture_coordinates[vertex] = glm::vec2(at.u, at.v);
+                    }
+                }
+                if (rows.strip) continue;
+                const auto tip =
+                    branch_point(colours_[vertex], tube.stations.back(), rows.sides, 0.0);
+                mesh_.texture_coordinates[vertex] = glm::vec2(tip.u, tip.v);
+            }
+    }
+
+    // Returns the texture coordinate of a branch at a share of its way round. It uses a piece of a
+    // ring of the disc, there and back, since a polygon cuts whole rings short.
+    [[nodiscard]] TexturePoint branch_point(double colour, const Station& station,
+                                            std::uint32_t sides, double round) const {
+        const double place = station.phase + round;
+        const double there = 2.0 * std::abs(place - std::floor(place + 0.5));
+        const auto [s, c] =
+            sine_cosine(station.turn + (sides < round_sides ? short_piece : branch_piece) * there);
+        return disc_point(swept_charts[index_of(Part::cap)], colour_of(colour), c, s);
     }
 
     BranchGraph graph_;
     Detail spine_detail_;
     BranchPlan plan_;
     std::uint32_t seed_;
-    bool full_disc_;
     SweepOptions options_;
     std::vector<double> represented_;
     double colour_exponent_ = 1.0;
     std::vector<Reach> reaches_;
-    std::vector<Station> built_;      ///< per node of a tube that has been built
-    glm::dvec3 side_{1.0, 0.0, 0.0};  ///< direction of column 0 of the current row
+    std::vector<Station> built_;  ///< per node of a tube that has been built
+    std::vector<Tube> tubes_;
+    std::vector<double> colours_;       ///< Station::colour per vertex, 1 on trunks
+    std::vector<std::size_t> tube_of_;  ///< per node of a tube that has been built
     Mesh mesh_;
 };
 

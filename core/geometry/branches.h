@@ -12,6 +12,10 @@
 
 namespace sporeprint {
 
+/// Piece of a ring of the cap's chart that goes half round a branch, and back round its other half,
+/// radians.
+inline constexpr double branch_piece = 1.8;
+
 /// Returns the exact counts of branched_mesh() at a level of detail. The vertex count follows
 /// from species and seed alone: no age and no weight changes it. Triangles are counted for segments
 /// that are present or, with `keep_absent`, for all segments, as for vertices.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/geometry/branches.h"
 #include "core/grow/level_choice.h"
 #include "core/grow/mushroom.h"
 #include "core/mesh/detail.h"
@@ -98,18 +99,18 @@ SpeciesPaint species_paint(const MushroomSpec& stepped, const Individual& indivi
 }
 
 // Branches use the chart of the cap from their tips down: its meridian is the path from the lowest
-// fork to the highest tip, its girth the mean one of segments.
+// fork to the highest tip, its rim as long as what the mean girth of segments takes a piece of.
 SurfaceMetrics surface_metrics(const BranchGraph& branch_graph) {
-    double girth = 0.0, weight = 0.0;
+    double radius = 0.0, weight = 0.0;
     for (const BranchGraph::Node& node : branch_graph.nodes) {
         if (node.parent == BranchGraph::none) continue;
-        girth += node.presence * node.radius;
+        radius += node.presence * node.radius;
         weight += node.presence;
     }
     SurfaceMetrics metrics;
     metrics.cap_arc = quantised_length(branch_graph.height - branch_graph.trunk);
-    metrics.cap_radius =
-        quantised_length(weight > 0.0 ? girth / weight : branch_graph.trunk_radius);
+    metrics.cap_radius = quantised_length(
+        pi / branch_piece * (weight > 0.0 ? radius / weight : branch_graph.trunk_radius));
     metrics.stem_length = quantised_length(branch_graph.trunk);
     metrics.stem_radius = quantised_length(branch_graph.trunk_radius);
     metrics.hymenium_arc = quantised_length(0.0);

@@ -1,0 +1,185 @@
+#include "core/geometry/joints.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Distance from another tube at which normals begin to turn to it, and colours to take on its own,
+/// in radii of the thinner one.
+constexpr double normal_reach = 1.1, colour_reach = 2.2;
+
+/// Distance behind the nearest section of a tube within which others count too, in the radius of its
+/// thickest.
+constexpr double section_reach = 0.3;
+
+/// A place of a surface, seen from another tube.
+struct Nearness {
+    double distance = std::numeric_limits<double>::infinity();  ///< metres, negative inside
+    glm::dvec3 gradient{0.0};                                   ///< unit, away from the other tube
+    double radius = 0.0;                                        ///< of the other tube there, metres
+    double colour = 0.0;                                        ///< Station::colour there
+};
+
+/// The solid that a tube bounds, as elliptical cones from station to station.
+class TubeSolid {
+  public:
+    explicit TubeSolid(const Tube& tube) {
+        for (std::size_t i = tube.shown; i < tube.stations.size(); ++i) {
+            const Station& station = tube.stations[i];
+            sections_.push_back({station.at, glm::inverse(station.shape()), station.radius,
+                                 i < tube.trunk ? 1.0 : station.colour});
+            const glm::dvec3 reach(widest(station));
+            low_ = glm::min(low_, station.at - reach);
+            high_ = glm::max(high_, station.at + reach);
+            thickest_ = std::max(thickest_, station.radius);
+        }
+    }
+
+    [[nodiscard]] double thickest() const { return thickest_; }
+
+    /// Returns true if a place can be within a distance of the solid.
+    [[nodiscard]] bool may_reach(const glm::dvec3& place, double distance) const {
+        return glm::all(glm::greaterThanEqual(place, low_ - distance)) &&
+               glm::all(glm::lessThanEqual(place, high_ + distance));
+    }
+
+    /// Returns how a place lies to the solid; the distance is of first order in the flattening.
+    /// Gradient, radius and colour are means of those of near sections, so that they change without
+    /// a jump where another section is the nearest.
+    ///
+    /// sections  scratch
+    [[nodiscard]] Nearness near(const glm::dvec3& place, std::vector<Nearness>& sections) const {
+        sections.clear();
+        double distance = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i + 1 < sections_.size(); ++i) {
+            sections.push_back(section_near(place, sections_[i], sections_[i + 1]));
+            distance = std::min(distance, sections.back().distance);
+        }
+        Nearness sum{distance};
+        double weights = 0.0;
+        for (const Nearness& one : sections) {
+            const double farther = (one.distance - distance) / (section_reach * thickest_ + 1e-12);
+            if (farther >= 1.0) continue;
+            const double weight = (1.0 - farther) * (1.0 - farther);
+            sum.gradient += weight * one.gradient;
+            sum.radius += weight * one.radius;
+            sum.colour += weight * one.colour;
+            weights += weight;
+        }
+        if (weights <= 0.0) return {};
+        return {distance, unit_or(sum.gradient, glm::dvec3(0.0)), sum.radius / weights,
+                sum.colour / weights};
+    }
+
+  private:
+    struct Section {
+        glm::dvec3 at;
+        glm::dmat3 unshaped;
+        double radius, colour;
+    };
+
+    static Nearness section_near(const glm::dvec3& place, const Section& a, const Section& b) {
+        const glm::dvec3 axis = b.at - a.at;
+        const double square = glm::dot(axis, axis);
+        const double t =
+            square > 0.0 ? std::clamp(glm::dot(place - a.at, axis) / square, 0.0, 1.0) : 0.0;
+        const glm::dvec3 out = place - (a.at + t * axis);
+        const glm::dmat3 unshaped = a.unshaped + t * (b.unshaped - a.unshaped);
+        const double radius = a.radius + t * (b.radius - a.radius);
+        const glm::dvec3 round = unshaped * out;
+        const double length = glm::length(round);
+        // The gradient of |unshaped * out| - radius; the matrix is symmetric.
+        const glm::dvec3 gradient = unshaped * round / std::max(length, 1e-12);
+        const double slope = std::max(glm::length(gradient), 1e-12);
+        return {(length - radius) / slope, gradient / slope, radius,
+                a.colour + t * (b.colour - a.colour)};
+    }
+
+    static double widest(const Station& station) {
+        return station.radius * std::max(station.wide, station.thin);
+    }
+
+    std::vector<Section> sections_;
+    glm::dvec3 low_{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
+    double thickest_ = 0.0;
+};
+
+/// How a vertex looks: its unit normal and its Station::colour.
+struct Look {
+    glm::dvec3 normal;
+    double colour;
+};
+
+/// Returns by how much another tube changes the look of a vertex: where the surfaces cross, both take
+/// the mean.
+///
+/// radius  of the tube of the vertex there, metres
+Look change(const Look& look, double radius, const Nearness& other) {
+    const double thin = std::min(radius, other.radius);
+    const auto share = [&](double reach) {
+        const double most = reach * thin;
+        return most > 0.0 ? 0.5 * std::max(1.0 - std::abs(other.distance) / most, 0.0) : 0.0;
+    };
+    return {share(normal_reach) * (other.gradient - look.normal),
+            share(colour_reach) * (other.colour - look.colour)};
+}
+
+/// Returns for each tube the others that it is united with: its parent, its children, and the other
+/// children of its parent.
+std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Tube>& tubes) {
+    std::vector<std::vector<std::size_t>> neighbours(tubes.size());
+    const auto join = [&](std::size_t a, std::size_t b) {
+        neighbours[a].push_back(b);
+        neighbours[b].push_back(a);
+    };
+    for (std::size_t i = 0; i < tubes.size(); ++i) {
+        const std::size_t parent = tubes[i].parent;
+        if (parent == Tube::none) continue;
+        join(i, parent);
+        for (std::size_t other = parent + 1; other < i; ++other)
+            if (tubes[other].parent == parent) join(i, other);
+    }
+    return neighbours;
+}
+
+}  // namespace
+
+void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tube>& tubes) {
+    const std::vector<TubeSolid> solids(tubes.begin(), tubes.end());
+    const auto neighbours = neighbours_of(tubes);
+    std::vector<Nearness> sections;
+    const auto blend = [&](std::size_t tube, double radius, std::size_t vertex) {
+        const glm::dvec3 place(mesh.positions[vertex]);
+        const Look own{glm::dvec3(mesh.normals[vertex]), colours[vertex]};
+        Look sum = own;
+        for (const std::size_t other : neighbours[tube]) {
+            const TubeSolid& solid = solids[other];
+            if (!solid.may_reach(place, colour_reach * std::min(radius, solid.thickest())))
+                continue;
+            const Look by = change(own, radius, solid.near(place, sections));
+            sum = {sum.normal + by.normal, sum.colour + by.colour};
+        }
+        mesh.normals[vertex] = glm::vec3(unit_or(sum.normal, own.normal));
+        colours[vertex] = std::clamp(sum.colour, 0.0, 1.0);
+    };
+    for (std::size_t i = 0; i < tubes.size(); ++i)
+        for (const TubeRows& rows : tubes[i].rows)
+            for (std::size_t row = 0; row < rows.count; ++row) {
+                const double radius = tubes[i].stations[rows.from + row].radius;
+                for (std::size_t column = 0; radius > 0.0 && column < rows.width(); ++column)
+                    blend(i, radius, rows.first_vertex + row * rows.width() + column);
+            }
+}
+
+}  // namespace sporeprint

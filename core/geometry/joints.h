@@ -1,0 +1,22 @@
+// Joints of tubes: where a tube leaves another, both look like one skin.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/tube.h"
+#include "core/mesh/mesh.h"
+
+namespace sporeprint {
+
+/// Turns the normals of tubes near their joints towards the gradient of their smooth union, and gives
+/// colours the mean of both tubes, so that no line is seen where the surfaces cross. Each tube is
+/// united with its parent, its children, and the other children of its parent. Vertices are not
+/// moved: a mix has more rings than a single species, and both must bound the same solid.
+///
+/// mesh     normals of the rows are changed
+/// colours  Station::colour per vertex of the mesh, 1 on trunks
+/// tubes    parents precede their children
+/// cost     O(vertices near joints x stations of their neighbours)
+void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tube>& tubes);
+
+}  // namespace sporeprint

@@ -1,0 +1,116 @@
+#include "core/geometry/joints.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/math/elementary.h"
+
+namespace sporeprint {
+namespace {
+
+constexpr std::uint32_t sides = 24;
+constexpr double radius = 0.01;
+
+/// A straight tube along a unit direction, of `count` rings a tenth of a radius apart.
+Tube straight_tube(Mesh& mesh, std::vector<double>& colours, const glm::dvec3& from,
+                   const glm::dvec3& along, std::size_t count, double colour) {
+    Tube tube;
+    tube.rows.push_back(
+        {static_cast<std::uint32_t>(mesh.positions.size()), sides, false, 0, count});
+    const glm::dvec3 side(0.0, 0.0, 1.0), third = glm::cross(side, along);
+    for (std::size_t i = 0; i < count; ++i) {
+        Station station;
+        station.at = from + 0.1 * radius * static_cast<double>(i) * along;
+        station.along = along;
+        station.radius = radius;
+        station.colour = colour;
+        tube.stations.push_back(station);
+        for (std::uint32_t j = 0; j < sides; ++j) {
+            const auto [s, c] = sine_cosine(2.0 * pi * j / sides);
+            const glm::dvec3 out = c * side + s * third;
+            mesh.positions.emplace_back(station.at + radius * out);
+            mesh.normals.emplace_back(out);
+            colours.push_back(colour);
+        }
+    }
+    return tube;
+}
+
+/// An upright tube of colour 1 and one of colour 0 that leaves it at a right angle.
+struct Crossing {
+    Mesh mesh;
+    std::vector<double> colours;
+    std::vector<Tube> tubes;
+
+    Crossing() {
+        tubes.push_back(straight_tube(mesh, colours, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 101, 1.0));
+        tubes.push_back(straight_tube(mesh, colours, {0.0, 0.05, 0.0}, {1.0, 0.0, 0.0}, 51, 0.0));
+        tubes.back().parent = 0;
+    }
+};
+
+/// Distance of a place from the surface of the other tube, metres.
+double distance_from_other(const Crossing& crossing, std::size_t vertex) {
+    const glm::dvec3 at(crossing.mesh.positions[vertex]);
+    const bool upright = vertex < crossing.tubes[1].rows[0].first_vertex;
+    if (!upright) return glm::length(glm::dvec2(at.x, at.z)) - radius;
+    // The other tube begins on the axis of the upright one with a round end.
+    const glm::dvec3 from = at - glm::dvec3(0.0, 0.05, 0.0);
+    return glm::length(at.x >= 0.0 ? glm::dvec3(0.0, from.y, from.z) : from) - radius;
+}
+
+TEST(Joints, LeaveASingleTubeAsItIs) {
+    Mesh mesh;
+    std::vector<double> colours;
+    const std::vector<Tube> tubes = {
+        straight_tube(mesh, colours, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 11, 0.5)};
+    const Mesh before = mesh;
+    const std::vector<double> colours_before = colours;
+    blend_joints(mesh, colours, tubes);
+    EXPECT_EQ(mesh.normals, before.normals);
+    EXPECT_EQ(colours, colours_before);
+}
+
+TEST(Joints, GiveBothSurfacesOneNormalAndOneColourWhereTheyCross) {
+    Crossing crossing;
+    blend_joints(crossing.mesh, crossing.colours, crossing.tubes);
+    int found = 0;
+    for (std::size_t i = 0; i < crossing.mesh.positions.size(); ++i) {
+        if (std::abs(distance_from_other(crossing, i)) > 0.02 * radius) continue;
+        if (crossing.mesh.positions[i].x < 0.0F) continue;
+        const glm::dvec3 at(crossing.mesh.positions[i]);
+        // The mean of the normals of the cylinders at a place of both.
+        const glm::dvec3 upright = glm::normalize(glm::dvec3(at.x, 0.0, at.z));
+        const glm::dvec3 level = glm::normalize(glm::dvec3(0.0, at.y - 0.05, at.z));
+        if (glm::length(upright + level) < 0.2) continue;
+        const glm::dvec3 mean = glm::normalize(upright + level);
+        EXPECT_GT(glm::dot(glm::dvec3(crossing.mesh.normals[i]), mean), 0.99);
+        EXPECT_NEAR(crossing.colours[i], 0.5, 0.02);
+        ++found;
+    }
+    EXPECT_GT(found, 10);
+}
+
+TEST(Joints, MoveNoVertexAndChangeNothingFarAway) {
+    Crossing crossing;
+    const Crossing before = crossing;
+    blend_joints(crossing.mesh, crossing.colours, crossing.tubes);
+    EXPECT_EQ(crossing.mesh.positions, before.mesh.positions);
+    int far = 0;
+    for (std::size_t i = 0; i < crossing.mesh.positions.size(); ++i) {
+        EXPECT_NEAR(glm::length(glm::dvec3(crossing.mesh.normals[i])), 1.0, 1e-6);
+        if (distance_from_other(crossing, i) < 2.3 * radius) continue;
+        EXPECT_EQ(crossing.mesh.normals[i], before.mesh.normals[i]);
+        EXPECT_EQ(crossing.colours[i], before.colours[i]);
+        ++far;
+    }
+    EXPECT_GT(far, 500);
+}
+
+}  // namespace
+}  // namespace sporeprint
