@@ -35,8 +35,11 @@ constexpr double least_decurrence = 0.01;
 constexpr double vanishing_place = 0.003, vanishing_width = 0.004, vanishing_length = 0.015,
                  vanishing_embedding = 0.01, vanishing_vein = 0.006;
 
-// Rows of a blade are this much denser at the stem, for blades that begin before that share.
-constexpr double row_crowding = 0.65, crowding_until = 0.3;
+// Share by which rows of a blade are moved to its ends, where its edge is most curved.
+constexpr double row_crowding = 0.85;
+
+// Shortest part of a decurrent blade on the stem, in that of the longest: blades do not end in a line.
+constexpr double shortest_down = 0.5;
 
 // Share of the meridian over which the part of a decurrent blade beyond the outline ends.
 constexpr double protrusion_fades = 0.25;
@@ -160,15 +163,17 @@ std::vector<SpeciesBlades> species_blades(const Individual& individual) {
     return out;
 }
 
-/// Sideways displacement of a blade along the meridian.
+/// Sideways displacement of a blade along the meridian, and how far it runs down the stem.
 struct Ripple {
     double size, pitch, phase, other;
+    double down;  ///< in the length of the longest blade on the stem
 
     Ripple(std::uint32_t seed, int number, double with_size) : size(with_size) {
         Random random(seed, purposes::blade_ripple, static_cast<std::uint32_t>(number));
         phase = random.uniform();
         other = random.uniform();
         pitch = random.uniform(least_ripples, most_ripples);
+        down = random.uniform(shortest_down, 1.0);
     }
     [[nodiscard]] double at(double share) const {
         return size * (cubic_wave(pitch * share + phase) +
@@ -228,7 +233,7 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
         blend.present += here;
         blend.begin += here * std::max(blade.begin, w.hymenium->inner_gap);
         if (blade.begin > 0.0) continue;
-        blend.down += here * w.hymenium->decurrent;
+        blend.down += here * w.hymenium->decurrent * blend.ripples.back().down;
         blend.protruding += here * decurrence(*w.hymenium) * w.hymenium->depth;
     }
     blend.each = blend.present > 0.0 ? 1.0 / blend.present : 0.0;
@@ -433,11 +438,10 @@ void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeB
                              const SlotBlend& blend, double beyond) {
     const double length = face_.length();
     const double begin = blend.begin;
-    const double crowding =
-        row_crowding * smooth_step(0.0, 1.0, (crowding_until - begin) / crowding_until);
     for (int j = 0; j <= budget.segments; ++j) {
         const double t = static_cast<double>(j) / budget.segments;
-        const double share = begin + (1.0 - begin) * (t + crowding * (t * t - t));
+        const double share =
+            begin + (1.0 - begin) * (t + row_crowding * (smooth_step(0.0, 1.0, t) - t));
         Plan plan;
         plan.along = share * length;
         for (const SpeciesBlades& w : all) {

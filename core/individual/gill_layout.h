@@ -56,7 +56,7 @@ struct SlotAssignment {
     return 1.0 - left;
 }
 /// Random variation of that share, and the steepness with which shorter gills rise.
-inline constexpr double tier_strays = 0.11, tier_rise = 9.0;
+inline constexpr double tier_strays = 0.14, tier_rise = 6.0;
 /// The same two values for the two levels of forks of a ridge at maximal forking, and the speed at
 /// which forks move to the middle of the gap.
 inline constexpr std::array<double, 2> fork_begins = {0.24, 0.66}, fork_strays = {0.17, 0.10};
