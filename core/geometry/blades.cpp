@@ -92,7 +92,7 @@ constexpr double protrusion = 0.55, most_protrusion = 0.3;
 constexpr double vein_texture_length = 0.06;
 
 // Depth of a cross vein of full height, relative to that of ridges.
-constexpr double vein_depth = 0.45;
+constexpr double vein_depth = 0.34;
 
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 

@@ -145,7 +145,7 @@ struct CrossVein {
     return rows < 7 ? rows : 7;
 }
 /// Random offset within the row, tilt and width of cross veins, in rows.
-inline constexpr double vein_stray = 0.36, vein_tilt = 0.4, vein_width = 0.11;
+inline constexpr double vein_stray = 0.36, vein_tilt = 1.4, vein_width = 0.09;
 /// The vein of gap k in row j has the hash index k + vein_rows_apart * j.
 inline constexpr int vein_rows_apart = 512;
 /// Returns the threshold of presence: this minus the hash of a vein, times the steepness, is its
