@@ -15,7 +15,7 @@ namespace {
 
 // The largest coefficients.
 constexpr double beside = 0.06;
-constexpr std::array<double, 4> of_sides{0.04, 0.08, 0.055, 0.04};
+constexpr std::array<double, 4> of_sides{0.05, 0.066, 0.035, 0.02};
 constexpr std::array<double, 3> of_lifts{0.03, 0.05, 0.035};
 /// Of the winding, in lengths of the stem and, at most, in radii.
 constexpr std::array<double, 2> of_winding{0.016, 0.008};
@@ -34,11 +34,68 @@ glm::dvec2 turned(const glm::dvec2& a, const glm::dvec2& b) {
     return {a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x};
 }
 
-/// Returns a random complex number with 0.6 to 1 of a length.
-glm::dvec2 drawn(Random& random, double length) {
-    const double share = random.uniform(0.6, 1.0);
+/// Returns a random complex number with `least` to 1 of a length.
+glm::dvec2 drawn(Random& random, double length, double least = 0.6) {
+    const double share = random.uniform(least, 1.0);
     const auto [s, c] = sine_cosine(random.uniform(0.0, 2.0 * pi));
     return {length * share * c, length * share * s};
+}
+
+/// The coefficients c2 to c5.
+using Sides = std::array<glm::dvec2, of_sides.size()>;
+
+/// How an outline differs from a circle of radius 1, to first order in its coefficients.
+struct Roundness {
+    double corner = 0.0;     ///< greatest curvature, less 1
+    double bay = 0.0;        ///< 1, less the least curvature
+    double deviation = 0.0;  ///< greatest deviation from an oval
+};
+
+Roundness roundness(const Sides& sides) {
+    constexpr int samples = 64;
+    Roundness round;
+    for (int i = 0; i < samples; ++i) {
+        const auto [s, c] = sine_cosine(2.0 * pi * i / samples);
+        const glm::dvec2 direction(c, s);
+        glm::dvec2 power = direction;
+        double curvature = 0.0, deviation = 0.0;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            power = product(power, direction);
+            const double n = static_cast<double>(k) + 2.0, side = glm::dot(sides[k], power);
+            curvature += (n * n - 1.0) * side;
+            if (k > 0) deviation += side;
+        }
+        round.corner = std::max(round.corner, curvature);
+        round.bay = std::max(round.bay, -curvature);
+        round.deviation = std::max(round.deviation, std::abs(deviation));
+    }
+    return round;
+}
+
+/// Most of what `roundness` measures, at irregularity 1: a cap has lobes, flat sides and shallow bays,
+/// but no corners.
+constexpr double most_corner = 0.7, most_bay = 1.15;
+
+/// Returns the coefficients of an outline without corners. Of several draws it takes the one that
+/// deviates most from an oval for the curvature of its corners. It is scaled down where it exceeds
+/// the limits, which a weighted mean of such outlines then keeps as well.
+Sides drawn_sides(Random& random) {
+    constexpr int draws = 8;
+    constexpr double least = 0.5;
+    Sides roundest{};
+    Roundness found;
+    for (int i = 0; i < draws; ++i) {
+        Sides sides;
+        for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = drawn(random, of_sides[k], least);
+        const Roundness round = roundness(sides);
+        if (i > 0 && round.corner * found.deviation >= found.corner * round.deviation) continue;
+        roundest = sides;
+        found = round;
+    }
+    const double excess = std::max(found.corner / most_corner, found.bay / most_bay);
+    if (excess > 1.0)
+        for (glm::dvec2& side : roundest) side /= excess;
+    return roundest;
 }
 
 }  // namespace
@@ -64,7 +121,6 @@ Unevenness::Unevenness(const Individual& individual) {
         Random random(individual.effective.seed, purposes::unevenness, stream_of(part.id));
         const double share = amount * part.weight;
         beside_ += share * drawn(random, beside);
-        for (std::size_t i = 0; i < sides; ++i) sides_[i] += share * drawn(random, of_sides[i]);
         for (std::size_t i = 0; i < lifts; ++i) lifts_[i] += share * drawn(random, of_lifts[i]);
         for (std::size_t i = 0; i < waves; ++i) {
             winding_[i] += share * drawn(random, std::min(of_winding[i] * length_,
@@ -72,6 +128,10 @@ Unevenness::Unevenness(const Individual& individual) {
             // On a stem shorter than it is wide, swellings would turn the face inside out.
             swelling_[i] += share * of_swelling[i] * random.uniform(0.4, 1.0) * slender;
         }
+        // In a stream of its own: how many draws an outline takes changes nothing else.
+        Random of_outline(individual.effective.seed, purposes::unevenness, stream_of(part.id) + 1);
+        const Sides own = drawn_sides(of_outline);
+        for (std::size_t i = 0; i < sides; ++i) sides_[i] += share * own[i];
     }
     Random random(individual.effective.seed, purposes::unevenness);
     for (std::size_t i = 0; i < waves; ++i) {

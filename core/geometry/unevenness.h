@@ -20,9 +20,11 @@ namespace sporeprint {
 /// Between the ground and the lowest point of the cap the stem winds and swells: w' = w (1 + S(y)) +
 /// K(y). Then q' = q + c1 |q|^2 + sum over n = 2..5 of cn conj(q)^(n - 1), which adds cn cos(n
 /// theta) to a circle of radius 1 in first order: c1 moves it beside the axis, c2 makes it oval, the
-/// others give it n sides. At last y' = y + R h(y) Re(b1 q + b2 q^2 + b3 q^3), where h rises from 0 at
-/// the lowest point of the outline. All coefficients are proportional to
-/// `deformation.irregularity`; at 0 the map is the identity.
+/// others give it n sides. Coefficients are chosen so that the outline has no corners: the sum of
+/// (n^2 - 1) cn cos(n theta), by which its curvature differs from 1 in first order, is at most 0.7,
+/// and at least -1.15, for the largest irregularity. At last y' = y + R h(y) Re(b1 q + b2 q^2 + b3
+/// q^3), where h rises from 0 at the lowest point of the outline. All coefficients are proportional
+/// to `deformation.irregularity`; at 0 the map is the identity.
 ///
 /// q' is injective where 2 |c1| |q| + sum of (n - 1) |cn| |q|^(n - 2) < 1, up to 1.15 R even for the
 /// largest coefficients, and y' increases with y.

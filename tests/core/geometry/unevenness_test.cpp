@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -150,24 +151,30 @@ TEST(Unevenness, AStemStaysWithinItsReach) {
         }
 }
 
-/// Returns the greatest deviation of the image of the widest circle from the oval nearest to it, in
-/// mean radii. To first order an oval has the circular harmonics up to 2.
-double deviation_from_oval(const Individual& individual) {
+/// Returns the image of the widest circle, at evenly spaced angles.
+std::vector<glm::dvec3> widest_outline(const Individual& individual, std::size_t count) {
     OutlineSample widest{};
     for (const CurveName name : curve_names)
         for (int i = 0; i <= 32 && !individual.outline.of(name).empty(); ++i)
             if (const OutlineSample at = individual.outline.of(name).at(i / 32.0); at.r > widest.r)
                 widest = at;
-    constexpr std::size_t count = 90;
     std::vector<glm::dvec3> places;
     for (std::size_t i = 0; i < count; ++i) {
-        const auto [s, c] = sine_cosine(2.0 * pi * static_cast<double>(i) / count);
+        const auto [s, c] =
+            sine_cosine(2.0 * pi * static_cast<double>(i) / static_cast<double>(count));
         places.emplace_back(widest.r * c, widest.y, widest.r * s);
     }
     Unevenness(individual).apply(places);
+    return places;
+}
+
+/// What is left of an outline's radius without its mean and the oval nearest to it, in mean radii.
+/// To first order an oval has the circular harmonics up to 2.
+std::vector<double> irregularities(const Individual& individual) {
+    constexpr std::size_t count = 90;
     std::vector<double> left;
     std::array<std::vector<double>, 5> harmonics;
-    for (const glm::dvec3& p : places) {
+    for (const glm::dvec3& p : widest_outline(individual, count)) {
         const double r = std::hypot(p.x, p.z), c = p.x / r, s = p.z / r;
         left.push_back(r);
         const std::array<double, 5> values{1.0, c, s, c * c - s * s, 2.0 * c * s};
@@ -185,9 +192,14 @@ double deviation_from_oval(const Individual& individual) {
             for (std::size_t i = 0; i < count; ++i) left[i] -= sum / norm * harmonics[k][i];
             if (k == 0) mean += sum / norm;
         }
+    for (double& one : left) one /= mean;
+    return left;
+}
+
+double deviation_from_oval(const Individual& individual) {
     double most = 0.0;
-    for (const double one : left) most = std::max(most, std::abs(one));
-    return most / mean;
+    for (const double one : irregularities(individual)) most = std::max(most, std::abs(one));
+    return most;
 }
 
 TEST(Unevenness, OutlinesDeviateFromAnOvalByThreeToTenPercent) {
@@ -198,6 +210,77 @@ TEST(Unevenness, OutlinesDeviateFromAnOvalByThreeToTenPercent) {
         std::sort(found.begin(), found.end());
         EXPECT_GE(0.5 * (found[3] + found[4]), 0.03) << id;
         EXPECT_LE(found.back(), 0.1) << id;
+    }
+}
+
+/// The least and the greatest curvature of an outline seen from above, times its mean radius.
+struct Curvature {
+    double least = 1e9, most = -1e9;
+};
+
+Curvature curvature_of(const std::vector<glm::dvec3>& outline) {
+    const std::size_t count = outline.size();
+    double length = 0.0;
+    Curvature found;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3 &before = outline[(i + count - 1) % count], &at = outline[i],
+                         &after = outline[(i + 1) % count];
+        const glm::dvec2 a(at.x - before.x, at.z - before.z), b(after.x - at.x, after.z - at.z);
+        const glm::dvec2 c = a + b;
+        length += glm::length(a);
+        // Of the circle through three points.
+        const double curvature =
+            2.0 * (a.x * b.y - a.y * b.x) / (glm::length(a) * glm::length(b) * glm::length(c));
+        found.least = std::min(found.least, curvature);
+        found.most = std::max(found.most, curvature);
+    }
+    found.least *= length / (2.0 * pi);
+    found.most *= length / (2.0 * pi);
+    return found;
+}
+
+TEST(Unevenness, OutlinesHaveNoCorners) {
+    for (const std::string& id : swept_ids())
+        for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+            // A circle has 1; an oval with axes as 3 to 2 has 1.9 at its ends.
+            const Curvature usual = curvature_of(widest_outline(uneven(id, 0.5, seed), 180));
+            EXPECT_LT(usual.most, 1.8) << id << " seed " << seed;
+            EXPECT_GT(usual.least, 0.3) << id << " seed " << seed;
+            const Curvature old = curvature_of(widest_outline(uneven(id, 1.0, seed), 180));
+            EXPECT_LT(old.most, 2.7) << id << " seed " << seed;
+            EXPECT_GT(old.least, 0.0) << id << " seed " << seed;
+        }
+}
+
+TEST(Unevenness, OutlinesOfAMixHaveNoCornersEither) {
+    for (std::uint32_t seed = 1; seed <= 8; ++seed)
+        for (const int weight : {100, 300, 500, 700, 900}) {
+            MushroomSpec order =
+                mix_of({{"amanita_muscaria", weight}, {"boletus_edulis", 1000 - weight}});
+            order.params.seed = seed;
+            order.params.deformation.irregularity = 1.0;
+            EXPECT_LT(curvature_of(widest_outline(resolve(order, atlas()), 180)).most, 2.7) << seed;
+        }
+}
+
+TEST(Unevenness, OutlinesOfTwoSpeciesAtOneSeedAreUnrelated) {
+    const std::vector<std::string> ids = swept_ids();
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        std::vector<std::vector<double>> all;
+        for (const std::string& id : ids) all.push_back(irregularities(uneven(id, 0.5, seed)));
+        double sum = 0.0;
+        int pairs = 0;
+        for (std::size_t a = 0; a < all.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b, ++pairs) {
+                double product = 0.0, square_a = 0.0, square_b = 0.0;
+                for (std::size_t i = 0; i < all[a].size(); ++i) {
+                    product += all[a][i] * all[b][i];
+                    square_a += all[a][i] * all[a][i];
+                    square_b += all[b][i] * all[b][i];
+                }
+                sum += product / std::sqrt(square_a * square_b);
+            }
+        EXPECT_LT(std::abs(sum / pairs), 0.1) << "seed " << seed;
     }
 }
 
