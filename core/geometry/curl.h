@@ -1,5 +1,5 @@
-// The curl of a deliquescing margin: how far what is left of cap and lower face is displaced from
-// the swept surface.
+// The curl of a margin that deliquesces or has split: how far what is left of cap and lower face is
+// displaced from the swept surface.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace sporeprint {
 
-/// Displacement of a deliquescing margin, which rolls up and outwards. Solids on the faces are
-/// displaced with them.
+/// Displacement of a deliquescing margin, which rolls up and outwards, and of the lips of splits,
+/// which are raised. Solids on the faces are displaced with them.
 class Curl {
   public:
     Curl() = default;
@@ -36,10 +36,15 @@ class Curl {
     [[nodiscard]] double turned(const glm::dvec3& by) const;
 
   private:
-    [[nodiscard]] double height(bool cap, double at, double cap_end, double lower_end) const;
+    /// Returns how far a place is displaced, metres.
+    ///
+    /// lift  of the lips of splits there, metres
+    [[nodiscard]] double height(bool cap, double at, double cap_end, double lower_end,
+                                double lift) const;
 
     const MarginCuts* cuts_ = nullptr;
-    double cap_length_ = 0.0, lower_length_ = 0.0, reach_ = 0.0, max_height_ = 0.0;
+    double cap_length_ = 0.0, lower_length_ = 0.0, max_height_ = 0.0, max_lift_ = 0.0;
+    std::vector<double> lifts_;  // per column, metres
     std::vector<glm::dvec3> away_;
 };
 

@@ -26,11 +26,18 @@ constexpr double merge_distance = 0.0002;
 constexpr double open_at = 0.12;
 
 // Numbers of cuts at a level of detail; `inside`: columns on each side of a bite's middle, beside
-// its edge.
+// its edge; `long_splits`: how many splits, if they are long enough, have a column in the middle of
+// each lip beside those at the tip and on the margin. A pair of species needs all of its triangles:
+// more columns would coarsen its other parts.
 struct LodLimits {
-    int bites, inside, splits;
+    int bites, inside, splits, long_splits;
 };
-constexpr std::array<LodLimits, 4> limits_by_lod = {{{4, 2, 9}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0}}};
+constexpr std::array<LodLimits, 4> limits_by_lod = {
+    {{4, 2, 7, 3}, {2, 0, 2, 0}, {2, 0, 0, 0}, {0, 0, 0, 0}}};
+// Least depth of such a split, in radii of the cap.
+constexpr double long_split = 0.2;
+// How far the lips of a split are raised at most, in radii of the cap.
+constexpr double most_lift = 0.05;
 // Positions in shares of a bite's half width: its arc is steepest at its edges; its middle has even
 // columns.
 constexpr std::array<double, 2> inside_at = {0.95, 0.78};
@@ -59,6 +66,21 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
     return begun(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
 }
 
+// Returns the angles from the middle of a bite at which it needs columns on either side.
+std::vector<double> columns_of_bite(const Notch& bite, int inside) {
+    std::vector<double> out{bite.half_width};
+    for (int k = 0; k < inside; ++k)
+        out.push_back(inside_at[static_cast<std::size_t>(k)] * bite.half_width);
+    return out;
+}
+
+// Returns the angles from the tip of a split at which a lip has columns.
+std::vector<double> columns_of_lip(const Lip& lip, bool is_long) {
+    const auto& corners = lip.corners;
+    if (is_long) return {corners[1].across, corners[3].across};
+    return {corners[3].across};
+}
+
 }  // namespace
 
 MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
@@ -74,17 +96,18 @@ MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
     if (possible_) {
         cap_length_ = outline.cap.length();
         lower_length_ = outline.hymenium.length();
-        const double radius = greatest_radius(outline.cap);
+        cap_radius_ = greatest_radius(outline.cap);
         for (const Notch& notch : notches) {
-            const double share = share_of(notch, amounts);
-            if (share > 0.0) open_.push_back({notch, notch.depth * share * radius});
+            const double size = share_of(notch, amounts);
+            if (size > 0.0) open_.push_back({notch, notch.depth * cap_radius_, size});
         }
     }
     if (melts_) {
         melted_ = melted(amounts.deliquescence) * cap_length_;
         phase_ = Random(individual.painted_seed, purposes::ragged).uniform(0.0, whole_turn);
     }
-    place_columns(notches, amounts, limits.inside, detail_of(level).columns);
+    place_columns(columns_of(notches, amounts, {limits.inside, limits.long_splits}), notches,
+                  detail_of(level).columns);
     placed_turns_ = turns_;
     const auto turn_of = [this](std::size_t k) { return k == turns_.size() ? 1.0 : turns_[k]; };
     for (const InsertedColumn& column : inserted_) {
@@ -109,16 +132,9 @@ MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
     }
 }
 
-namespace {
-
-// A column that a cut needs: its turn, and how far the cut is open.
-struct CutColumn {
-    double turn, open;
-};
-
-// Returns the columns of all notches in the order of their turns.
-std::vector<CutColumn> columns_of(const std::vector<Notch>& notches,
-                                  const WeatheringOf<Plain>& amounts, int inside) {
+std::vector<MarginCuts::CutColumn> MarginCuts::columns_of(const std::vector<Notch>& notches,
+                                                          const WeatheringOf<Plain>& amounts,
+                                                          ColumnLimits limits) {
     std::vector<CutColumn> own;
     for (const Notch& notch : notches) {
         const double open = smooth_step(0.0, open_at, share_of(notch, amounts));
@@ -126,11 +142,14 @@ std::vector<CutColumn> columns_of(const std::vector<Notch>& notches,
             const double turn = angle / whole_turn;
             own.push_back({turn - std::floor(turn), open});
         };
+        const bool is_long = !notch.bitten && notch.depth > long_split && limits.long_splits-- > 0;
         if (!notch.bitten) add(notch.theta);
-        for (const double side : {-1.0, 1.0}) {
-            add(notch.theta + side * notch.half_width);
-            for (int k = 0; notch.bitten && k < inside; ++k)
-                add(notch.theta + side * inside_at[static_cast<std::size_t>(k)] * notch.half_width);
+        for (const std::size_t side : {0U, 1U}) {
+            const double sign = side == 0 ? -1.0 : 1.0;
+            const Lip& lip = notch.lips[side];
+            for (const double across : notch.bitten ? columns_of_bite(notch, limits.inside)
+                                                    : columns_of_lip(lip, is_long))
+                add(notch.theta + sign * across);
         }
     }
     std::stable_sort(own.begin(), own.end(),
@@ -138,11 +157,8 @@ std::vector<CutColumn> columns_of(const std::vector<Notch>& notches,
     return own;
 }
 
-}  // namespace
-
-void MarginCuts::place_columns(const std::vector<Notch>& notches,
-                               const WeatheringOf<Plain>& amounts, int inside, int even) {
-    const std::vector<CutColumn> own = columns_of(notches, amounts, inside);
+void MarginCuts::place_columns(const std::vector<CutColumn>& own, const std::vector<Notch>& notches,
+                               int even) {
     auto next = own.begin();
     std::vector<double> open;  // per column from an even one to the next
     for (int j = 0; j < even; ++j) {
@@ -198,7 +214,7 @@ void MarginCuts::insert_columns(std::size_t left, double to, const std::vector<d
 double MarginCuts::cut_at(double angle) const {
     double deepest = 0.0;
     for (const Open& cut : open_)
-        deepest = std::max(deepest, cut.depth * notch_profile(cut.notch, angle));
+        deepest = std::max(deepest, cut.depth * notch_depth(cut.notch, cut.size, angle));
     if (melted_ > 0.0) {
         const double ragged = 0.5 * sine(3.0 * angle + phase_) + 0.3 * sine(7.0 * angle - phase_) +
                               0.2 * sine(13.0 * angle + 2.0 * phase_);
@@ -216,6 +232,12 @@ double MarginCuts::depth(double angle) const {
     const double from = turns_[next - 1], to = next == turns_.size() ? 1.0 : turns_[next];
     const double t = (turn - from) / (to - from);
     return depths_[next - 1] + t * (depths_[next] - depths_[next - 1]);
+}
+
+double MarginCuts::lift(double angle) const {
+    double highest = 0.0;
+    for (const Open& cut : open_) highest = std::max(highest, lip_lift(cut.notch, cut.size, angle));
+    return most_lift * cap_radius_ * highest;
 }
 
 double MarginCuts::cap_end(double angle) const {

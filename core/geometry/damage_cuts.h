@@ -62,6 +62,10 @@ class MarginCuts {
     /// mesh is.
     [[nodiscard]] double depth(double angle) const;
 
+    /// Returns how far the lips of splits are raised from the margin at an angle, metres; nowhere
+    /// while no split is open.
+    [[nodiscard]] double lift(double angle) const;
+
     /// Returns the positions of the columns, in turns (0..1), increasing from 0. They do not depend
     /// on the amounts of damage.
     [[nodiscard]] const std::vector<double>& turns() const { return turns_; }
@@ -93,13 +97,27 @@ class MarginCuts {
     [[nodiscard]] bool may_cut(std::size_t column) const { return may_cut_[column]; }
 
   private:
+    /// A column that a cut needs: its turn, and how far the cut is open.
+    struct CutColumn {
+        double turn, open;
+    };
     struct Open {
         Notch notch;
-        double depth;  // current depth, metres
+        double depth;  // at full size, metres
+        double size;   // present one, 0..1
     };
     [[nodiscard]] double cut_at(double angle) const;
-    void place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
-                       int inside, int even);
+    /// How many columns cuts have.
+    struct ColumnLimits {
+        int inside;       ///< on each side of a bite's middle, beside its edge
+        int long_splits;  ///< how many splits may have one in the middle of each lip, if long
+    };
+    /// Returns the columns of all notches in the order of their turns.
+    [[nodiscard]] static std::vector<CutColumn> columns_of(const std::vector<Notch>& notches,
+                                                           const WeatheringOf<Plain>& amounts,
+                                                           ColumnLimits limits);
+    void place_columns(const std::vector<CutColumn>& own, const std::vector<Notch>& notches,
+                       int even);
     void insert_columns(std::size_t left, double to, const std::vector<double>& open);
 
     std::vector<Open> open_;
@@ -108,7 +126,7 @@ class MarginCuts {
     std::vector<InsertedColumn> inserted_;
     std::vector<Chord> chords_;
     std::vector<bool> may_cut_;
-    double cap_length_ = 0.0, lower_length_ = 0.0, melted_ = 0.0, phase_ = 0.0;
+    double cap_length_ = 0.0, lower_length_ = 0.0, cap_radius_ = 0.0, melted_ = 0.0, phase_ = 0.0;
     bool melts_ = false, possible_ = false;
 };
 

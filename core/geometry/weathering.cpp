@@ -396,9 +396,9 @@ class Weatherer {
         copy_seam(face);
     }
 
-    /// Displaces a deliquescing margin, which rolls up and outwards.
+    /// Displaces a deliquescing margin, which rolls up and outwards, and the lips of splits.
     void curl() {
-        if (amounts_.deliquescence <= 0.0) return;
+        if (amounts_.deliquescence <= 0.0 && amounts_.splits <= 0.0) return;
         std::vector<glm::dvec3> away(columns_);
         for (std::size_t j = 0; j < columns_; ++j)
             away[j] = glm::dvec3(mesh_.normals[at(body_.cap, 0, j)]);

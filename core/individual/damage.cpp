@@ -210,21 +210,57 @@ std::vector<Notch> bites(std::uint32_t seed) {
     return out;
 }
 
+namespace {
+
+/// Depths of the corners of a lip, from the tip outwards, and how far they may lie from the curve
+/// of the lip, relative to its distance from the tip.
+constexpr std::array<double, 4> corner_depths = {0.72, 0.45, 0.18, 0.0};
+constexpr double lip_waves = 0.45;
+/// The angle beside a split over which its lip sinks back to the margin, radians.
+constexpr double lip_reach = 0.2;
+
+/// Returns a lip.
+///
+/// width  angle on the margin from the tip to the lip, radians
+Lip drawn_lip(double width, Random& random) {
+    Lip lip;
+    double inner = 0.0;
+    for (std::size_t k = 0; k < lip.corners.size(); ++k) {
+        const double deep = corner_depths[k], wave = random.symmetric();
+        const double even = width * power(1.0 - deep, lip_power);
+        const double waved = deep > 0.0 ? even * (1.0 + lip_waves * wave) : even;
+        // The lip never leans over itself: a column of the mesh crosses it once.
+        inner = std::max(waved, inner + 0.08 * width);
+        lip.corners[k] = {std::min(inner, width * (1.0 - 0.08 * static_cast<double>(3 - k))), deep};
+    }
+    lip.lift = random.uniform();
+    return lip;
+}
+
+}  // namespace
+
 std::vector<Notch> splits(std::uint32_t seed) {
-    constexpr int count = 13;
+    constexpr int count = 7;                           // all of them are built at LOD 0
+    constexpr double shortest = 0.07, longest = 0.54;  // radii of the cap
+    constexpr double narrowest = 0.008;                // radians
     std::vector<Notch> out;
     const double phase = Random(seed, purposes::splits, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::splits, static_cast<std::uint32_t>(i));
         const double jitter = random.symmetric();
-        const double width = random.uniform(0.028, 0.07);
+        const double opening = random.uniform(0.08, 0.15);
         const double draw = random.uniform();
+        const double skew = random.uniform(-0.45, 0.45);
         Notch notch;
         notch.bitten = false;
         notch.theta = wrapped(phase + whole_turn * ((5 * i % count) + 0.4 * jitter) / count);
-        notch.half_width = width;
-        // The square makes long ones rare.
-        notch.depth = 0.12 + 0.42 * draw * draw;
+        // Long ones are rare, except among the first two.
+        const double rare = i < 2 ? draw * std::sqrt(draw) : draw * draw * draw;
+        notch.depth = shortest + (longest - shortest) * rare;
+        const double width = narrowest + opening * notch.depth;
+        notch.lips[0] = drawn_lip(width * (1.0 - skew), random);
+        notch.lips[1] = drawn_lip(width * (1.0 + skew), random);
+        notch.half_width = width * (1.0 + std::abs(skew));
         notch.onset = 0.7 * i / count;
         notch.id = 100 + static_cast<std::uint32_t>(i);
         out.push_back(notch);
@@ -232,14 +268,49 @@ std::vector<Notch> splits(std::uint32_t seed) {
     return out;
 }
 
+namespace {
+
+/// A column at the edge of a notch counts as outside, however its angle was rounded.
+constexpr double edge = 1.0 - 1e-6;
+
+/// Returns the lip of a split on the side of a turn from its tip.
+const Lip& lip_beside(const Notch& split, double turn) { return split.lips[turn < 0.0 ? 0 : 1]; }
+
+/// Returns the depth of the tear between the tip and a lip, relative to that of the tip.
+double torn(const Lip& lip, double across) {
+    if (across >= edge * lip.corners.back().across) return 0.0;
+    Lip::Corner inner{0.0, 1.0};
+    for (const Lip::Corner& outer : lip.corners) {
+        if (across < outer.across)
+            return inner.deep + (outer.deep - inner.deep) * (across - inner.across) /
+                                    (outer.across - inner.across);
+        inner = outer;
+    }
+    return 0.0;
+}
+
+}  // namespace
+
 double notch_profile(const Notch& notch, double theta) {
     const double turn = turn_between(notch.theta, theta);
+    if (!notch.bitten) return torn(lip_beside(notch, turn), std::abs(turn));
     const double x = turn / notch.half_width;
-    // A column at the edge counts as outside, however its angle was rounded.
-    constexpr double edge = 1.0 - 1e-6;
-    if (x <= -edge || x >= edge) return 0.0;
-    if (notch.bitten) return std::sqrt(1.0 - x * x);
-    return 1.0 - (x < 0.0 ? -x : x);
+    return x <= -edge || x >= edge ? 0.0 : std::sqrt(1.0 - x * x);
+}
+
+double notch_depth(const Notch& notch, double size, double theta) {
+    const double whole = notch_profile(notch, theta);
+    return notch.bitten ? size * whole : std::max(0.0, whole - (1.0 - size));
+}
+
+double lip_lift(const Notch& notch, double size, double theta) {
+    if (notch.bitten || size <= 0.0) return 0.0;
+    const double turn = turn_between(notch.theta, theta);
+    const Lip& lip = lip_beside(notch, turn);
+    const double across = std::abs(turn), width = lip.corners.back().across;
+    const double near = std::min(across / width, 1.0);
+    const double far = smooth_step(0.0, lip_reach, across - width);
+    return lip.lift * size * near * (1.0 - far);
 }
 
 double tongue_ragged(const Tongue& tongue, double turn) {

@@ -55,25 +55,51 @@ struct DamageSpot {
     return (lump.id % 3 == 2 ? -0.8 : 1.0) * 0.16 * lump.radius;
 }
 
+/// A lip of a split: from the tip, which is as deep as the split, to the margin.
+struct Lip {
+    struct Corner {
+        double across = 0.0;  ///< angle from the tip, radians
+        double deep = 0.0;    ///< relative to the depth of the tip
+    };
+    std::array<Corner, 4> corners{};  ///< from the tip outwards; the last is on the margin
+    double lift = 0.0;                ///< how far it is raised, relative to the others: 0..1
+};
+
 /// A piece missing from the margin, through cap and lower face alike: a slug's bite or a split.
 struct Notch {
-    double theta = 0.0;
-    double half_width = 0.0;  ///< radians at the margin, at most most_notch_width
+    double theta = 0.0;       ///< of the middle of a bite, of the tip of a split
+    double half_width = 0.0;  ///< radians at the margin, at most most_notch_width; the wider lip's
     double depth = 0.0;       ///< at full size, in radii of the cap
     double onset = 0.0;
     bool bitten = true;  ///< a round bite; otherwise a pointed split
     std::uint32_t id = 0;
+    std::array<Lip, 2> lips{};  ///< of a split: on the side of smaller and of greater angles
 };
 
-/// Returns the bites of slugs and the splits of the margin.
+/// Returns the bites of slugs and the splits of the margin. Splits are narrow tears, most of them
+/// short; each of their lips waves in its own way.
 [[nodiscard]] std::vector<Notch> bites(std::uint32_t seed);
 [[nodiscard]] std::vector<Notch> splits(std::uint32_t seed);
 
 inline constexpr double most_notch_width = 0.45;
 
+/// The greatest distance of a lip from the tip of its split grows with this power of the depth left:
+/// splits end in a narrow tip. The paint kernels know it as the fourth root of a cube.
+inline constexpr double lip_power = 4.0 / 3.0;
+
 /// Returns the depth of a full-size notch at an angle relative to its greatest: half an ellipse for
-/// a bite, a triangle for a split; 0 outside.
+/// a bite, the tear between the lips of a split; 0 outside.
 [[nodiscard]] double notch_profile(const Notch& notch, double theta);
+
+/// Returns the same for a notch of a size from 0 to 1. A bite deepens; the tip of a split advances
+/// while its lips move apart.
+[[nodiscard]] double notch_depth(const Notch& notch, double size, double theta);
+
+/// Returns how far the lip of a split is raised at an angle relative to the most possible: not at
+/// the tip, most at the margin beside the split, less and less farther away; 0 for a bite.
+///
+/// size  of the split, 0..1
+[[nodiscard]] double lip_lift(const Notch& notch, double size, double theta);
 
 /// Returns the share of the cap's meridian that has melted away from the margin for an amount of
 /// deliquescence; its edge varies by a fifth of it.

@@ -303,6 +303,8 @@ class DamagePlanner {
         for (const Notch& notch : notches) {
             const double scale = grown(notch.onset, amount);
             if (scale <= 0.0) continue;
+            // The lips of a split move apart while it grows.
+            const double open = notch.bitten ? 1.0 : power(scale, lip_power);
             for (const Part part : {Part::cap, Part::hymenium}) {
                 const double arc = length_of_step(part == Part::cap ? params_.metrics.cap_arc
                                                                     : params_.metrics.hymenium_arc);
@@ -313,8 +315,12 @@ class DamagePlanner {
                                    (part == Part::cap ? 1.0 : 0.6);
                 // A cut shallower than a texel has the opacity of its share of the texel.
                 const double shown = std::min(1.0, depth * chart.unit() / chart.texel());
-                add_margin_spot(part, kind, notch.theta, notch.half_width, depth * chart.unit(),
-                                rim, notch.id, shown);
+                add_margin_spot(part, kind, notch.theta, notch.half_width * open,
+                                depth * chart.unit(), rim, notch.id, shown);
+                if (notch.bitten) continue;
+                SpotPlan& painted = plan_.damage.damage_spots[index_of(part)].back();
+                painted.per_width = single(1.0 / (notch.lips[1].corners.back().across * open));
+                painted.x = single(1.0 / (notch.lips[0].corners.back().across * open));
             }
         }
     }

@@ -37,7 +37,9 @@ struct SpotPlan {
     DamageKind kind = DamageKind::pit;
     // Members needed to intersect a row come first, because they are read most often.
     float middle_x = 0.0F, reach = 0.0F;  ///< bounding circle
-    float x = 0.0F, y = 0.0F;  ///< centre, or where a line begins; tongue: phases of its border
+    /// Centre, or where a line begins; tongue: phases of its border; split: x is per_width on the side
+    /// of smaller angles.
+    float x = 0.0F, y = 0.0F;
     /// Line: step along a row from one row to the next, and half of its extent within a row.
     float lean = 0.0F, breadth = 0.0F;
     float cover = 0.0F;  ///< line: extent to its sides and beyond its ends

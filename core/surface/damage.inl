@@ -286,6 +286,13 @@ HWY_INLINE MarginBorder margin_border(const SpotPlan& spot) {
     }
 }
 
+/// Returns how much less deep than its tip a split is at a distance from the tip in widths of its lip:
+/// the inverse of lip_power in core/individual/damage.h.
+HWY_INLINE VF lip_depth(VF across) {
+    const VF root = hn::Sqrt(hn::Abs(across));
+    return root * hn::Sqrt(root);
+}
+
 // cosine, sine: of the texel's angle about the pole; inward: distance from the margin in disc
 // radii.
 HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
@@ -296,18 +303,21 @@ HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
     const VF ahead = cosine * c + sine * s;
     // Arc sine to third order: within 0.5 % over the widest mark.
     const VF angle = round * (one + round * round * set(1.0F / 6.0F));
-    const VF across = hn::IfThenElse(ahead > zero, angle * set(spot.per_width), set(9.0F));
+    const bool split = spot.kind == DamageKind::split;
+    const VF per_width = split ? hn::IfThenElse(angle < zero, set(spot.x), set(spot.per_width))
+                               : set(spot.per_width);
+    const VF across = hn::IfThenElse(ahead > zero, angle * per_width, set(9.0F));
     const VF deep = inward * set(spot.per_length);
     const VF shown = set(spot.strength);
     const VF inner = hn::Max(deep, zero);
-    const VF round_far = spot.kind == DamageKind::split ? hn::Abs(across) + inner
-                                                        : hn::Sqrt(across * across + inner * inner);
+    const VF round_far =
+        split ? lip_depth(across) + inner : hn::Sqrt(across * across + inner * inner);
     // The noise of the border is needed only near the border.
     const MarginBorder border = margin_border(spot);
     if (all_at_least(round_far, set(border.until))) return;
     if (all_at_least(set(border.from), round_far)) {
         at.raise(damage_open, shown);
-        if (spot.kind != DamageKind::split)
+        if (!split)
             at.raise(damage_sunk, spot.kind == DamageKind::bite ? set(0.35F * spot.height) * shown
                                                                 : shown * set(0.012F));
         return;
@@ -315,7 +325,7 @@ HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
     const VF ragged =
         noise2(across * set(4.0F), deep * set(4.0F), spot.seed) * set(0.5F * spot.rim);
     VF far = round_far + ragged;
-    if (spot.kind == DamageKind::split) {
+    if (split) {
         const VF open = one - smooth(far, 1.0F, 1.0F / spot.rim);
         at.raise(damage_open, open * shown);
         return;

@@ -75,18 +75,95 @@ TEST(Damage, PitsBeginAsShallowPatches) {
     }
 }
 
-TEST(Damage, NotchesAreRoundOrPointed) {
-    Notch notch{1.0, 0.3, 0.2, 0.0, true, 0};
+TEST(Damage, BitesAreRound) {
+    const Notch notch{1.0, 0.3, 0.2, 0.0, true, 0};
     EXPECT_EQ(notch_profile(notch, 1.0), 1.0);
     EXPECT_NEAR(notch_profile(notch, 1.0 + 0.3 * 0.6), 0.8, 1e-12);
     EXPECT_NEAR(notch_profile(notch, 1.0 - 0.3 * 0.6), 0.8, 1e-12);
     EXPECT_EQ(notch_profile(notch, 1.31), 0.0);
     EXPECT_EQ(notch_profile(notch, 1.0 + pi), 0.0);
-    notch.bitten = false;
-    EXPECT_NEAR(notch_profile(notch, 1.0 + 0.3 * 0.6), 0.4, 1e-12);
-    // This is across the seam.
-    notch.theta = 0.05;
-    EXPECT_NEAR(notch_profile(notch, 2.0 * pi - 0.1), 0.5, 1e-12);
+    EXPECT_NEAR(notch_depth(notch, 0.25, 1.0 + 0.3 * 0.6), 0.2, 1e-12);
+    EXPECT_EQ(lip_lift(notch, 1.0, 1.29), 0.0);
+}
+
+TEST(Damage, SplitsPassThroughTheCornersOfTheirLips) {
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const Notch& split : splits(seed)) {
+            EXPECT_EQ(notch_profile(split, split.theta), 1.0);
+            for (const std::size_t side : {0U, 1U}) {
+                const double sign = side == 0 ? -1.0 : 1.0;
+                double across = 0.0, deep = 1.0;
+                for (const Lip::Corner& corner : split.lips[side].corners) {
+                    EXPECT_GT(corner.across, across);
+                    EXPECT_LT(corner.deep, deep);
+                    EXPECT_NEAR(notch_profile(split, split.theta + sign * corner.across),
+                                corner.deep, 1e-9);
+                    across = corner.across;
+                    deep = corner.deep;
+                }
+                EXPECT_EQ(deep, 0.0) << "on the margin";
+                EXPECT_LE(across, split.half_width * (1.0 + 1e-12));
+                EXPECT_EQ(notch_profile(split, split.theta + sign * 1.01 * across), 0.0);
+            }
+        }
+}
+
+TEST(Damage, SplitsAreNarrowMostlyShortAndTheirLipsDiffer) {
+    std::size_t all = 0, shorter = 0, longer = 0;
+    double difference = 0.0;
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const Notch& split : splits(seed)) {
+            ++all;
+            shorter += split.depth < 0.2 ? 1 : 0;
+            longer += split.depth > 0.35 ? 1 : 0;
+            const auto& [one, other] = split.lips;
+            const double mouth = one.corners.back().across + other.corners.back().across;
+            EXPECT_LT(mouth, 0.55 * split.depth);
+            // Half-way to the tip less than half of the mouth is open.
+            const double middle = one.corners[1].across + other.corners[1].across;
+            EXPECT_LT(middle, 0.7 * mouth);
+            difference += std::abs(one.corners[1].across / one.corners.back().across -
+                                   other.corners[1].across / other.corners.back().across);
+        }
+    EXPECT_GT(2 * shorter, all);
+    EXPECT_LT(4 * longer, all);
+    EXPECT_GT(longer, 0U);
+    EXPECT_GT(difference / static_cast<double>(all), 0.08);
+}
+
+TEST(Damage, TheTipOfAGrowingSplitAdvancesAndItsLipsMoveApart) {
+    const Notch split = splits(3).front();
+    double before = 0.0, width_before = 0.0;
+    for (int i = 0; i <= 64; ++i) {
+        const double size = i / 64.0;
+        const double deep = notch_depth(split, size, split.theta);
+        EXPECT_NEAR(deep, size, 1e-12);
+        double width = 0.0;
+        constexpr int steps = 400;
+        for (int k = -steps; k <= steps; ++k) {
+            const double theta = split.theta + split.half_width * k / steps;
+            const double here = notch_depth(split, size, theta);
+            EXPECT_LE(here, notch_profile(split, theta));
+            width += here > 0.0 ? 1.0 : 0.0;
+        }
+        EXPECT_GE(deep, before);
+        EXPECT_GE(width, width_before);
+        before = deep;
+        width_before = width;
+    }
+}
+
+TEST(Damage, LipsAreRaisedBesideASplitOnly) {
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const Notch& split : splits(seed)) {
+            EXPECT_EQ(lip_lift(split, 1.0, split.theta), 0.0) << "not at its tip";
+            EXPECT_EQ(lip_lift(split, 0.0, split.theta + split.half_width), 0.0);
+            EXPECT_EQ(lip_lift(split, 1.0, split.theta + pi), 0.0);
+            for (const double theta : {split.theta - 0.02, split.theta + 0.02}) {
+                EXPECT_GE(lip_lift(split, 1.0, theta), 0.0);
+                EXPECT_LE(lip_lift(split, 1.0, theta), 1.0);
+            }
+        }
 }
 
 TEST(Damage, NotchesStayOutsideTheStem) {
