@@ -2,17 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/individual/proportion.h"
 #include "core/math/direction.h"
+#include "core/math/random.h"
 
 namespace sporeprint {
+
+namespace {
+
+std::vector<Waves::Species> species_of(const Individual& individual) {
+    std::vector<Waves::Species> mix;
+    for (const SpeciesShare& part : individual.parts)
+        mix.push_back({stream_of(part.id), part.weight});
+    return mix;
+}
+
+}  // namespace
 
 RestSurface::RestSurface(const Individual& individual, const Detail& detail, const Detail& carrier)
     : outline_(individual.outline),
       relief_(individual, carrier),
       waves_(individual.waves, greatest_radius(individual.outline.cap), detail.columns,
-             individual.effective.seed),
+             individual.effective.seed, species_of(individual)),
       azimuth_(individual, detail.columns) {}
 
 RestSurface::Column RestSurface::column(double angle) const {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/geometry/hymenium.h"
+#include "core/geometry/waves.h"
 #include "core/individual/proportion.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
@@ -559,8 +560,11 @@ TEST(Sweep, AnotherSeedIsAnotherIndividual) {
     EXPECT_FALSE(same_bits(one, mesh_of(order)));
 }
 
+constexpr std::array<Waves::Species, 1> one_species = {{{3, 1.0}}};
+
 TEST(Sweep, WavesHaveTheReportedDerivatives) {
-    const Waves waves(0.8, 0.06, 72, 9);
+    constexpr std::array<Waves::Species, 2> two_species = {{{3, 0.4}, {8, 0.6}}};
+    const Waves waves(0.8, 0.06, 72, 9, two_species);
     Random random(1, 1);
     for (int i = 0; i < 500; ++i) {
         const double share = random.uniform(0.01, 0.99);
@@ -575,14 +579,31 @@ TEST(Sweep, WavesHaveTheReportedDerivatives) {
             value.by_angle, 1e-6);
     }
     for (const double share : {0.0, 0.2, 0.35}) EXPECT_EQ(waves.at(share, 1.0).height, 0.0);
-    EXPECT_TRUE(Waves(0.0, 0.06, 72, 9).flat());
+    EXPECT_TRUE(Waves(0.0, 0.06, 72, 9, one_species).flat());
     EXPECT_FALSE(waves.flat());
+}
+
+TEST(Sweep, WavesOfAMixAreTheWeightedSumOfThoseOfItsSpecies) {
+    const auto height = [](std::span<const Waves::Species> mix, double angle) {
+        return Waves(1.0, 0.06, 72, 9, mix).at(1.0, angle).height;
+    };
+    const std::array<Waves::Species, 1> first = {{{3, 1.0}}}, second = {{{8, 1.0}}};
+    double difference = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = 2.0 * pi * i / 60, a = height(first, angle), b = height(second, angle);
+        for (const double weight : {0.0, 0.001, 0.3, 1.0}) {
+            const std::array<Waves::Species, 2> mix = {{{3, weight}, {8, 1.0 - weight}}};
+            EXPECT_NEAR(height(mix, angle), weight * a + (1.0 - weight) * b, 1e-12);
+        }
+        difference = std::max(difference, std::abs(a - b));
+    }
+    EXPECT_GT(difference, 0.002) << "each species has waves of its own";
 }
 
 TEST(Sweep, WavesTooFineForTheColumnsAreLeftOut) {
     // With 8 columns a wave of three crests is not sampled finely enough to be a wave.
     double most = 0.0;
-    const Waves coarse(1.0, 0.06, 8, 9);
+    const Waves coarse(1.0, 0.06, 8, 9, one_species);
     for (int i = 0; i < 100; ++i)
         most = std::max(most, std::abs(coarse.at(1.0, 0.0628 * i).height));
     EXPECT_EQ(most, 0.0);
