@@ -15,7 +15,13 @@ constexpr double least_columns_per_lobe = 2.5;
 constexpr double gather = 0.45;  // how far columns turn towards the front of a fan, radians
 constexpr double crowd = 0.40;   // how far they then turn to its sides, where the fan curves back
 constexpr double back = 0.06;    // reach of a fan towards its substrate
-constexpr double blunt = 0.15;   // roundness of the tips of lobes
+constexpr double blunt = 0.15, pointed_blunt = 0.05;  // roundness of the tips of lobes, of rays
+
+// How far columns turn towards the crests of rays of full depth.
+constexpr double crest_gather = 0.5;
+
+// Amplitudes of the two waves of a lift round the axis, in shares of it; their sum is a half.
+constexpr double lift_wave = 0.3, second_lift_wave = 0.2;
 
 /// Factor m by which a place moves towards the core (see the class), and its derivatives.
 struct Pull {
@@ -41,14 +47,18 @@ struct Notch {
     double value, by_cosine;
 };
 
+/// Returns how far lobes are rays: 0 up to a sharpness of a half, 1 at full sharpness.
+double ray_share(double sharpness) { return std::max(2.0 * sharpness - 1.0, 0.0); }
+
 Notch notch_at(double u, double sharpness) {
-    const double scale = 1.0 / (std::sqrt(1.0 + blunt * blunt) - blunt);
+    const double tip = blunt + ray_share(sharpness) * (pointed_blunt - blunt);
+    const double scale = 1.0 / (std::sqrt(1.0 + tip * tip) - tip);
     const double sharp = std::abs(sharpness);
     // Positive sharpness gives crests as pointed as rays, negative notches as sharp as between
     // scallops; 0 is a cosine.
     const double side = sharpness > 0.0 ? u : -u;
-    const double root = std::sqrt(0.5 * (1.0 + side) + blunt * blunt);
-    const double tent = (root - blunt) * scale, tent_by = 0.25 * scale / root;
+    const double root = std::sqrt(0.5 * (1.0 + side) + tip * tip);
+    const double tent = (root - tip) * scale, tent_by = 0.25 * scale / root;
     return {(1.0 - sharp) * 0.5 * (1.0 + u) + sharp * (sharpness > 0.0 ? tent : 1.0 - tent),
             (1.0 - sharp) * 0.5 + sharp * tent_by};
 }
@@ -56,9 +66,14 @@ Notch notch_at(double u, double sharpness) {
 }  // namespace
 
 AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(individual.azimuth) {
-    for (const Azimuth& form : individual.lobes)
-        if (form.lobes > 0 && form.lobe_depth > 0.0)
-            layers_.push_back({form, 0.0, columns >= least_columns_per_lobe * form.lobes});
+    Random count_stream(individual.effective.seed, purposes::lobes, 1);
+    const double lot = count_stream.uniform();
+    for (Azimuth form : individual.lobes) {
+        if (form.lobes <= 0 || form.lobe_depth <= 0.0) continue;
+        const int more = static_cast<int>(lot * (2 * form.lobe_spread + 1)) - form.lobe_spread;
+        form.lobes = std::max(form.lobes + more, 1);
+        layers_.push_back({form, 0.0, columns >= least_columns_per_lobe * form.lobes});
+    }
     has_fan_ = azimuth_.lateral > 0.0;
     Extent extent{individual.stem_base, individual.stem_base};
     if (!identity())
@@ -69,6 +84,8 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
     first_ = random.uniform(0.0, 2.0 * pi);
     second_ = random.uniform(0.0, 2.0 * pi);
     third_ = random.uniform(0.0, 2.0 * pi);
+    lift_phase_ = random.uniform(0.0, 2.0 * pi);
+    second_lift_phase_ = random.uniform(0.0, 2.0 * pi);
     for (Layer& layer : layers_) {
         const Azimuth& form = layer.form;
         layer.root = extent.low + form.lobe_root * (extent.high - extent.low);
@@ -86,22 +103,48 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
     }
 }
 
-AzimuthMap::Reach AzimuthMap::lobe_at(const Layer& layer, double angle) const {
-    if (!layer.carried) return {layer.mean_reach, 0.0};
-    const Azimuth& form = layer.form;
-    const double n = form.lobes, uneven = n * form.lobe_uneven;
-    const auto one = sine_cosine(angle + first_), two = sine_cosine(2.0 * angle + second_),
-               low = sine_cosine(2.0 * angle + third_);
+AzimuthMap::Phase AzimuthMap::phase_of(const Layer& layer, double angle) const {
+    const double n = layer.form.lobes, uneven = n * layer.form.lobe_uneven;
+    const auto one = sine_cosine(angle + first_), two = sine_cosine(2.0 * angle + second_);
     // The phase increases with the angle: its derivative is at least 0.35 n.
-    const double phase = n * angle + phase_ + uneven * (0.25 * one.sine + 0.2 * two.sine);
-    const double phase_by = n + uneven * (0.25 * one.cosine + 0.4 * two.cosine);
-    const auto turn = sine_cosine(phase);
+    return {n * angle + phase_ + uneven * (0.25 * one.sine + 0.2 * two.sine),
+            n + uneven * (0.25 * one.cosine + 0.4 * two.cosine)};
+}
+
+AzimuthMap::Reach AzimuthMap::lobe_at(const Layer& layer, double angle) const {
+    const Azimuth& form = layer.form;
+    const double lift = form.lobe_lift * form.lobe_depth * radius_;
+    if (!layer.carried) return {layer.mean_reach, 0.0, 0.5 * lift, 0.0};
+    const Phase phase = phase_of(layer, angle);
+    const auto low = sine_cosine(2.0 * angle + third_);
+    const auto turn = sine_cosine(phase.value);
     const Notch notch = notch_at(turn.cosine, form.lobe_sharpness);
-    const double notch_by = -notch.by_cosine * turn.sine * phase_by;
+    const double notch_by = -notch.by_cosine * turn.sine * phase.by_angle;
     const double mean = 0.3 * form.lobe_uneven;
     const double less = mean * (1.0 + low.sine), less_by = 2.0 * mean * low.cosine;
+    const auto once = sine_cosine(angle + lift_phase_),
+               twice = sine_cosine(2.0 * angle + second_lift_phase_);
     return {1.0 - form.lobe_depth * (notch.value + less * (1.0 - notch.value)),
-            -form.lobe_depth * (notch_by * (1.0 - less) + less_by * (1.0 - notch.value))};
+            -form.lobe_depth * (notch_by * (1.0 - less) + less_by * (1.0 - notch.value)),
+            lift * (0.5 + lift_wave * once.sine + second_lift_wave * twice.sine),
+            lift * (lift_wave * once.cosine + 2.0 * second_lift_wave * twice.cosine)};
+}
+
+AzimuthMap::Phase AzimuthMap::gathered(double angle) const {
+    Phase to{angle, 1.0};
+    for (const Layer& layer : layers_) {
+        if (!layer.carried) continue;
+        // The front of a fan has its own gathering.
+        const double gathering = crest_gather * layer.form.lobe_depth *
+                                 ray_share(layer.form.lobe_sharpness) * (1.0 - azimuth_.lateral);
+        if (gathering <= 0.0) continue;
+        const Phase phase = phase_of(layer, angle);
+        const auto turn = sine_cosine(phase.value);
+        const double n = layer.form.lobes;
+        to.value += gathering / n * turn.sine;
+        to.by_angle += gathering / n * turn.cosine * phase.by_angle;
+    }
+    return to;
 }
 
 AzimuthMap::Reach AzimuthMap::fan_at(const SineCosine& direction, double turning) const {
@@ -129,25 +172,29 @@ AzimuthMap::Reach AzimuthMap::fan_at(const SineCosine& direction, double turning
 AzimuthMap::Column AzimuthMap::column(double angle) const {
     Column column;
     column.from = sine_cosine(angle);
-    column.to = column.from;
-    double to = angle;
+    const Phase near = gathered(angle);
+    double to = near.value;
+    column.turning = near.by_angle;
+    column.to = sine_cosine(to);
     if (has_fan_) {
         // Columns turn towards the front, then from there to both sides, and with these slightly
         // backwards to the substrate.
+        const SineCosine at = column.to;
         const double turn = gather * azimuth_.lateral;
         const double beside = crowd * azimuth_.lateral * (2.0 - azimuth_.lateral);
-        const double nearer = angle + turn * column.from.cosine;
+        const double nearer = to + turn * at.cosine;
         const auto twice = sine_cosine(2.0 * nearer);
         const double sides = nearer - beside * twice.sine;
         const auto at_side = sine_cosine(sides);
         to = sides - back * azimuth_.lateral * at_side.cosine;
         column.to = sine_cosine(to);
-        column.turning = (1.0 - turn * column.from.sine) * (1.0 - 2.0 * beside * twice.cosine) *
-                         (1.0 + back * azimuth_.lateral * at_side.sine);
+        column.turning *= (1.0 - turn * at.sine) * (1.0 - 2.0 * beside * twice.cosine) *
+                          (1.0 + back * azimuth_.lateral * at_side.sine);
     }
     for (std::size_t k = 0; k < layers_.size(); ++k) {
         column.lobes[k] = lobe_at(layers_[k], to);
         column.lobes[k].by_angle *= column.turning;
+        column.lobes[k].lift_by_angle *= column.turning;
     }
     column.fan = fan_at(column.to, column.turning);
     return column;
@@ -174,6 +221,11 @@ AzimuthMap::Place AzimuthMap::placed(double r, double y, const Column& column) c
         place.r = core + out * pull.value;
         place.r_by_angle = pull.slope * place.r_by_angle + out * by_angle;
         place.r_by_r *= pull.slope;
+        const double reached = (place.r - core) / width, steepness = 2.0 * reached / width;
+        place.y += reach.lift * reached * reached;
+        place.y_by_r += reach.lift * steepness * place.r_by_r;
+        place.y_by_angle +=
+            reach.lift * steepness * place.r_by_angle + reach.lift_by_angle * reached * reached;
     }
     if (has_fan_) {
         const double core = azimuth_.core * radius_, width = radius_ - core;

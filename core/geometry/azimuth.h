@@ -21,7 +21,8 @@ namespace sporeprint {
 /// round core (r = c) to the widest circle (r = R) and K the lobe's reach. Then r' = c + (r - c) m
 /// and y' = y0 + (y - y0) (1 + pull (m - 1)) with m = k + (1 - k) / (1 + q / s). The choice k = 6
 /// K^2 / (1 + 5 K) and s = K / (1 + 5 K) makes m fall from 1 at the core, with slope 1 there, to K
-/// at q = 1, and keeps r' increasing for every K > 0.
+/// at q = 1, and keeps r' increasing for every K > 0. Then each vertical line outside of the core is
+/// lifted as a whole, by a height that grows with the square of its distance from the core.
 /// The fan then does the same to r with its own core and reach; it also turns the half-planes
 /// towards the front, where columns are seen most.
 class AzimuthMap {
@@ -33,9 +34,10 @@ class AzimuthMap {
     [[nodiscard]] bool identity() const { return layers_.empty() && !has_fan_; }
 
     /// Radius of the widest circle outside the core at an angle, relative to its radius at rest,
-    /// and its derivative by angle.
+    /// and its derivative by angle; the same of its lift, metres.
     struct Reach {
         double value = 1.0, by_angle = 0.0;
+        double lift = 0.0, lift_by_angle = 0.0;
     };
 
     /// Everything that depends on the angle alone; computed once per column.
@@ -69,7 +71,15 @@ class AzimuthMap {
         double y_by_r = 0.0, y_by_y = 1.0, y_by_angle = 0.0;
     };
     [[nodiscard]] Place placed(double r, double y, const Column& column) const;
+    /// Position among the lobes, 2 pi for each: odd multiples of pi are crests.
+    struct Phase {
+        double value, by_angle;
+    };
+    [[nodiscard]] Phase phase_of(const Layer& layer, double angle) const;
     [[nodiscard]] Reach lobe_at(const Layer& layer, double angle) const;
+    /// Returns the angle to which a column at rest gathers at the crests of pointed lobes, and its
+    /// derivative.
+    [[nodiscard]] Phase gathered(double angle) const;
     [[nodiscard]] Reach fan_at(const SineCosine& direction, double turning) const;
 
     Azimuth azimuth_;
@@ -77,6 +87,7 @@ class AzimuthMap {
     double radius_;
     bool has_fan_;
     double phase_, first_, second_, third_;
+    double lift_phase_, second_lift_phase_;
 };
 
 }  // namespace sporeprint

@@ -764,7 +764,7 @@ class TubeBuilder {
     }
 
     BranchGraph graph_;
-    Detail spine_detail_;
+    OrnamentDetail spine_detail_;
     BranchPlan plan_;
     std::uint32_t seed_;
     SweepOptions options_;

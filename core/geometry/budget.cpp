@@ -62,9 +62,23 @@ bool drop_patches(Detail& detail, DetailLevel level) {
     return true;
 }
 
+/// Returns the share of the surplus that a level offers: all at LOD 0, none from LOD 1 on.
+double surplus_at(DetailLevel level) {
+    if (level.lod > 0) return 0.0;
+    return 1.0 - static_cast<double>(level.eighths) / DetailLevel::steps;
+}
+
+/// Leaves out a further eighth of the surplus; returns false when none is left.
+bool drop_surplus(OrnamentDetail& detail) {
+    if (detail.surplus <= 0.0) return false;
+    detail.surplus -= 0.125;
+    return true;
+}
+
 Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     Budget budget;
     budget.ornaments = detail_of(level);
+    budget.ornaments.surplus = surplus_at(level);
     budget.solids = solids;
     if (solids) {
         budget.cells = cell_budget(individual);
@@ -83,7 +97,8 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     budget.count = total();
     const std::uint64_t limit = triangle_limit(level);
     while (budget.count.triangles > limit &&
-           (coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
+           (drop_surplus(budget.ornaments) || coarsen(budget.ornaments, level) ||
+            (solids && coarsen(individual, budget.blades)) ||
             (!solids && drop_patches(budget.ornaments, level)) ||
             drop_free_solids(individual, budget.ornaments)))
         budget.count = total();

@@ -6,6 +6,7 @@
 
 #include "core/geometry/blades.h"
 #include "core/geometry/cells.h"
+#include "core/geometry/ornament_detail.h"
 #include "core/individual/individual.h"
 #include "core/mesh/detail.h"
 
@@ -17,8 +18,8 @@ inline constexpr std::array<std::uint64_t, 4> most_triangles = {60000, 6000, 120
 /// Triangle budget of one individual. It follows from the set of species alone: no age and no
 /// weight changes it.
 struct Budget {
-    Detail ornaments;  ///< resolution of patches and shells; coarser in a large set
-    CellBudget cells;  ///< of the hymenium; zero where it is painted only
+    OrnamentDetail ornaments;  ///< resolution of patches and shells; coarser in a large set
+    CellBudget cells;          ///< of the hymenium; zero where it is painted only
     BladeBudget blades;
     bool solids = false;  ///< whether the hymenium is built as solids
     MeshCount count;      ///< exact counts when everything is present
@@ -28,7 +29,8 @@ struct Budget {
 [[nodiscard]] std::uint64_t triangle_limit(DetailLevel level);
 
 /// Returns the budget of an individual at a level of detail. A set that exceeds `most_triangles` is
-/// coarsened step by step, least visible detail first: corners and rings of patches, rows of
+/// coarsened step by step, least visible detail first: the surplus of granules and hairs, which a
+/// level beyond 0 never has; corners and rings of patches, rows of
 /// shells, short blades between others, cross veins, rows of blades; at the next level the smaller
 /// patches themselves, which are painted then; at last, at every level, hanging spines, and then
 /// peridioles and meshes of nets. Between LOD 0 and 1 the hymenium is painted only if the

@@ -50,6 +50,11 @@ void append_grid_triangles(Mesh& mesh, GridSolid& solid, std::uint32_t first) {
         for (int j = 0; j < solid.columns; ++j) tip += normals[at(solid.rows - 1, j)];
         for (int j = 0; j <= solid.columns; ++j) normals[at(solid.rows - 1, j)] = tip;
     }
+    const double share = glm::length(solid.skirt);
+    if (share <= 0.0) return;
+    for (int j = 0; j <= solid.columns; ++j)
+        normals[at(0, j)] =
+            (1.0 - share) * unit_or(normals[at(0, j)], solid.skirt / share) + solid.skirt;
 }
 
 /// Appends the vertices of a solid's grid; texture coordinates are those of its strip.

@@ -43,6 +43,9 @@ struct GridSolid : SolidGrid {
     Part part = Part::veil;           ///< whose strip paints it
     std::vector<glm::dvec3> corners;  ///< [row][column]
     std::vector<glm::dvec3> normals;  ///< computed by append()
+    /// Normal of the surface that a pointed solid rises from, times the share of it in the normals
+    /// of its first row: with length 1 the skin passes into it without an edge in the shading.
+    glm::dvec3 skirt = glm::dvec3(0.0);
 };
 
 /// Appends a solid, painted by the strip of its part: round it along the columns, from its base to

@@ -7,6 +7,7 @@
 #include "core/geometry/curl.h"
 #include "core/geometry/damage_cuts.h"
 #include "core/geometry/damage_dents.h"
+#include "core/geometry/ornament_detail.h"
 #include "core/geometry/sweep.h"
 #include "core/individual/individual.h"
 
@@ -17,7 +18,7 @@ struct OrnamentContext {
     const Outline& outline;
     const Deformer& deformer;
     const RestSurface& rest_surface;
-    const Detail& detail;
+    const OrnamentDetail& detail;
     DetailLevel level;
     std::uint32_t seed;
     bool textured;

@@ -35,8 +35,17 @@ constexpr double crumb_stray = 0.3, crumb_rise = 0.28, crumb_top = 0.5;
 /// Depth of a patch's base under the surface, in radii.
 constexpr double patch_depth = 0.25;
 
+/// A spine stands on a skirt, in which the skin rises to it: how much wider its base is, how much
+/// less deep it lies, and the power by which the rings between base and tip move down to it.
+constexpr double skirt_width = 0.35, skirt_rise = 0.5, skirt_power = 0.5;
+
 SolidGrid patch_grid(const Detail& detail) {
     return {detail.patch_rings + 2, detail.patch_sides, false};
+}
+
+/// Returns 0 for a layer of cushions and flaps, 1 for one of spines.
+double pointed_share(const PatchLayer& layer) {
+    return smooth_step(cushion_height, spine_height, layer.style.height);
 }
 
 bool is_tuft(const PatchLayer& layer) {
@@ -45,11 +54,12 @@ bool is_tuft(const PatchLayer& layer) {
 
 /// Returns the number of pieces of a layer, absent ones included, so that no amount changes the
 /// number of vertices. Tufts of hairs are only painted.
-int piece_count(const PatchLayer& layer, const Detail& detail) {
+int piece_count(const PatchLayer& layer, const OrnamentDetail& detail) {
     if (detail.patch_sides == 0 || is_tuft(layer) ||
         std::abs(layer.style.to - layer.style.from) < least_window)
         return 0;
-    return static_cast<int>(std::ceil(detail.patches * layer.style.count));
+    return static_cast<int>(
+        std::ceil(detail.patches * detail.offered(layer.style.count, sure_patches)));
 }
 
 /// Returns the share of the current stem's arc length that corresponds to a share of the mature
@@ -122,7 +132,8 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     const PatchStyle& style = layer.style;
     const int sides = solid.columns;
     // Low pieces are cushions, tall ones spines.
-    const double pointed = smooth_step(cushion_height, spine_height, style.height);
+    const double pointed = pointed_share(layer);
+    const double skirt = layer.purpose == purposes::scales ? 0.0 : pointed;
     const double height = patch.height * radius;
     solid.corners.clear();
     Random random(context.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
@@ -149,8 +160,10 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     const glm::dvec3 tip =
         radius * (tip_round * frame.round + tip_outward * style.elongation * frame.outward);
     for (int i = 0; i < solid.rows; ++i) {
-        const double up = static_cast<double>(i) / (solid.rows - 1);
-        const double narrowing = (1.0 - up) * (1.0 + bulge * up * (1.0 - spine_hollow * pointed));
+        const double row = static_cast<double>(i) / (solid.rows - 1);
+        const double up = row * (1.0 - skirt_power * skirt * (1.0 - row));
+        const double narrowing = (1.0 - up) * (1.0 + bulge * up * (1.0 - spine_hollow * pointed)) +
+                                 (i == 0 ? skirt_width * skirt : 0.0);
         const double risen = up * (1.0 + crumbled * crumb_top * (1.0 - up));
         const double crumb = i > 0 && i + 1 < solid.rows ? crumbled : 0.0;
         const std::size_t ring = static_cast<std::size_t>(up * crumb_rings * 0.999);
@@ -158,8 +171,8 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
             const auto side = static_cast<std::size_t>(j);
             const auto [across, upwards] =
                 stray[7 * ring + side * 7 / static_cast<std::size_t>(sides)];
-            const double rise =
-                i == 0 ? -patch_depth * radius : height * (risen + crumb * upwards * up);
+            const double rise = i == 0 ? (skirt_rise * skirt - 1.0) * patch_depth * radius
+                                       : height * (risen + crumb * upwards * up);
             solid.corners.push_back(frame.centre + up * tip + rise * frame.normal +
                                     narrowing * (1.0 + crumb * across) * rim[side]);
         }
@@ -171,11 +184,11 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
 /// Returns the pieces of a layer that a level of detail builds: the largest ones.
 std::vector<Patch> built_patches(const PatchLayer& layer, const OrnamentContext& context) {
     std::vector<Patch> built = patches(layer.style, context.seed, layer.purpose);
-    if (context.detail.patches < 1.0) {
+    const auto count = static_cast<std::size_t>(piece_count(layer, context.detail));
+    if (count < built.size()) {
         std::stable_sort(built.begin(), built.end(),
                          [](const Patch& a, const Patch& b) { return a.drawn > b.drawn; });
-        built.resize(
-            std::min(built.size(), static_cast<std::size_t>(piece_count(layer, context.detail))));
+        built.resize(count);
     }
     return built;
 }
@@ -198,13 +211,15 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& conte
         }
         const glm::dvec3 fallback =
             unit_or(frame.station.direction(frame.centre, frame.normal), glm::dvec3(0.0, 1.0, 0.0));
+        solid.skirt =
+            layer.purpose == purposes::scales ? glm::dvec3(0.0) : pointed_share(layer) * fallback;
         append(mesh, solid, fallback, context.textured, radius > 0.0 || context.keep_absent);
     }
 }
 
 }  // namespace
 
-MeshCount ornament_count(const Individual& individual, const Detail& detail) {
+MeshCount ornament_count(const Individual& individual, const OrnamentDetail& detail) {
     MeshCount sum = shell_count(individual, detail);
     sum += spine_count(individual.spines, detail);
     sum += peridiole_count(individual, detail);

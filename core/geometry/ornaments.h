@@ -7,7 +7,7 @@ namespace sporeprint {
 
 /// Returns the exact counts of all that add_ornaments() appends, absent ornaments included: they
 /// depend on the set of species only, not on amounts.
-[[nodiscard]] MeshCount ornament_count(const Individual& individual, const Detail& detail);
+[[nodiscard]] MeshCount ornament_count(const Individual& individual, const OrnamentDetail& detail);
 
 /// Appends warts, scales and bulb scales, each a closed solid sunk a little into the surface; then
 /// the ring and the sac, spines, peridioles and receptacles. A piece of size 0 is a point on the

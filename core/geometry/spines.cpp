@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "core/geometry/budget.h"
@@ -27,6 +28,15 @@ constexpr double least_stand = 0.15, stand = 0.25;
 /// Largest deviation of a spine from its direction.
 constexpr double astray = 0.12;
 
+/// How much farther shaggy hairs stray; how much they lean to the middle of their tuft, and how far
+/// aside they bend, in their own lengths and in deviations from their direction.
+constexpr double shaggy_stray = 2.0, shaggy_lean = 0.5, shaggy_bend = 0.6;
+
+/// Tufts of shaggy hair round the axis and along the meridian, and how far their rows wind, in
+/// distances between them.
+constexpr int tufts_round = 23, tufts_along = 13, round_turns = 5, along_turns = 7;
+constexpr double tuft_winding = 0.35;
+
 /// Depth of its base in the body, in its own widths.
 constexpr double sunk = 0.6;
 
@@ -46,8 +56,9 @@ constexpr double most_wide = 2.5;
 const Resolution& resolution_of(const Detail& detail) { return by_columns(resolutions, detail); }
 
 /// Returns how many spines of a layer a level builds: the first ones of the sequence.
-int built(const SpineLayer& layer, const Detail& detail) {
-    const int most = std::min(layer.style.count, resolution_of(detail).most);
+int built(const SpineLayer& layer, const OrnamentDetail& detail) {
+    const double most = std::min(detail.offered(layer.style.count, sure_spines),
+                                 static_cast<double>(resolution_of(detail).most));
     return static_cast<int>(std::floor(most * detail.free_solids + 0.5));
 }
 
@@ -95,6 +106,30 @@ class Meridian {
     std::array<double, samples + 1> areas_{};
 };
 
+/// Tufts of shaggy hair: hairs lean to the middle of the tuft that they stand in.
+class Tufts {
+  public:
+    explicit Tufts(std::uint32_t seed) {
+        Random random(seed, purposes::spines, tuft_stream);
+        round_ = random.uniform(0.0, 2.0 * pi);
+        along_ = random.uniform(0.0, 2.0 * pi);
+    }
+    /// Returns the lean of a hair, round the axis and along the meridian, each -1..1.
+    ///
+    /// at  its place in the unit square
+    [[nodiscard]] glm::dvec2 lean(const SpinePlace& at) const {
+        // Rows of tufts wind, so that they are not seen as rows.
+        const double up = 2.0 * pi * at.along, turn = 2.0 * pi * at.round;
+        const double winding = 2.0 * pi * tuft_winding;
+        return {-sine(tufts_round * turn + winding * sine(round_turns * up + along_) + round_),
+                -sine(tufts_along * up + winding * sine(along_turns * turn + round_) + along_)};
+    }
+
+  private:
+    static constexpr std::uint32_t tuft_stream = 0xFFFFFFFFU;
+    double round_, along_;
+};
+
 /// Builds one spine: rows of rings along a curve from its root to its tip.
 void build_spine(GridSolid& solid, const SpineRoot& root, double length, double width,
                  const SpineStyle& style, Random& random) {
@@ -102,6 +137,8 @@ void build_spine(GridSolid& solid, const SpineRoot& root, double length, double 
     off.x = astray * random.symmetric();
     off.y = astray * random.symmetric();
     off.z = astray * random.symmetric();
+    const glm::dvec3 strays = off;
+    off = (1.0 + shaggy_stray * style.shag) * off + shaggy_lean * style.shag * root.lean;
     const double turned = random.uniform(0.0, 2.0 * pi);
     const glm::dvec3 down(0.0, -1.0, 0.0);
     glm::dvec3 hangs =
@@ -109,10 +146,14 @@ void build_spine(GridSolid& solid, const SpineRoot& root, double length, double 
     // Where the surface faces upwards a spine lies on it instead of hanging through the body.
     const double inwards = std::min(glm::dot(hangs, root.outwards), 0.0);
     hangs = unit_or(hangs - inwards * root.outwards, root.outwards);
+    // A hair bends to its sides alone: it neither turns back nor into the body.
+    const glm::dvec3 sideways = unit_or(glm::cross(root.outwards, hangs), down);
+    const glm::dvec3 aside =
+        shaggy_bend * style.shag * length * glm::dot(strays, sideways) * sideways;
     glm::dvec3 start = root.place - sunk * width * root.outwards;
-    const glm::dvec3 bend =
-        root.place + length * (least_stand + stand * (1.0 - style.droop)) * root.outwards;
-    const glm::dvec3 tip = bend + length * hangs;
+    const double stands = (least_stand + stand * (1.0 - style.droop));
+    const glm::dvec3 bend = root.place + length * stands * root.outwards + aside;
+    const glm::dvec3 tip = bend - aside + length * hangs;
     // A straight spine begins on the way to the bend, so that it lies as the curved one does.
     if (solid.rows == 2) start = 0.5 * (start + bend);
     solid.corners.clear();
@@ -134,6 +175,43 @@ void build_spine(GridSolid& solid, const SpineRoot& root, double length, double 
     }
 }
 
+/// What all spines of a swept individual share.
+struct SweptFace {
+    const OrnamentContext& context;
+    Tufts tufts;
+    AxisStation station;
+    std::vector<OutlineSample> upper;  ///< rings of the cap's mesh
+};
+
+/// Returns the root of the k-th spine of a layer.
+SpineRoot root_on(const SweptFace& face, const Meridian& meridian, const SpineStyle& style, int k) {
+    const OrnamentContext& context = face.context;
+    const SpinePlace at = spine_place(k);
+    const double rank = static_cast<double>(k) / style.count;
+    const double share = meridian.at(at.along + style.shortening * (rank - at.along));
+    const bool on_cap = meridian.is_on_cap(share);
+    const double theta = 2.0 * pi * at.round;
+    // Where the margin is cut, spines move inwards with the surface.
+    const double cut =
+        on_cap ? 1.0 - context.cuts.cap(2.0 - share, theta) : context.cuts.lower(share, theta);
+    SurfacePoint point = context.rest_surface.meshed(on_cap ? Part::cap : Part::hymenium,
+                                                     on_cap ? face.upper : context.flesh,
+                                                     detail_of(context.level).columns, cut, theta);
+    if (on_cap)
+        point.position +=
+            context.dents.cap(2.0 - share, theta) *
+            unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, 1.0, 0.0));
+    context.deformer.apply({&point, 1}, face.station);
+    if (!context.curl.none())
+        point.position += context.curl.moved(on_cap, on_cap ? 1.0 - cut : cut, theta);
+    const glm::dvec3 outwards =
+        unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, -1.0, 0.0));
+    const glm::dvec2 lean = face.tufts.lean({share, at.round});
+    return {
+        point.position, outwards, meridian.within(share), 1.0,
+        lean.x * square_to(outwards, point.azimuth) + lean.y * square_to(outwards, point.meridian)};
+}
+
 }  // namespace
 
 SpinePlace spine_place(int number) {
@@ -143,7 +221,7 @@ SpinePlace spine_place(int number) {
     return {along - std::floor(along), round - std::floor(round)};
 }
 
-MeshCount spine_count(const std::vector<SpineLayer>& layers, const Detail& detail,
+MeshCount spine_count(const std::vector<SpineLayer>& layers, const OrnamentDetail& detail,
                       bool keep_absent) {
     const Resolution& resolution = resolution_of(detail);
     MeshCount sum;
@@ -156,8 +234,8 @@ MeshCount spine_count(const std::vector<SpineLayer>& layers, const Detail& detai
     return sum;
 }
 
-Detail spine_detail(const std::vector<SpineLayer>& layers, DetailLevel level) {
-    Detail detail = detail_of(level);
+OrnamentDetail spine_detail(const std::vector<SpineLayer>& layers, DetailLevel level) {
+    OrnamentDetail detail = detail_of(level);
     // From afar the branches need all triangles for their outline.
     if (level.nearest() >= 2) detail.free_solids = 0.0;
     while (detail.free_solids > 0.0 &&
@@ -166,8 +244,9 @@ Detail spine_detail(const std::vector<SpineLayer>& layers, DetailLevel level) {
     return detail;
 }
 
-void add_spines(Mesh& mesh, const SpineLayer& layer, const Detail& detail, std::uint32_t seed,
-                bool textured, bool keep_absent, const std::function<SpineRoot(int)>& root_of) {
+void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detail,
+                std::uint32_t seed, bool textured, bool keep_absent,
+                const std::function<SpineRoot(int)>& root_of) {
     const Resolution& resolution = resolution_of(detail);
     GridSolid solid{{resolution.rows, resolution.sides, false}, Part::blade, {}, {}};
     const SpineStyle& style = layer.style;
@@ -195,38 +274,13 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const Detail& detail, std::
 }
 
 void add_spines(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
-    const Detail whole = detail_of(context.level);
-    const AxisStation station = context.deformer.frozen_station(context.deformer.top());
-    const auto upper = context.outline.rings(CurveName::cap, context.level);
+    const SweptFace face{context, Tufts(context.seed),
+                         context.deformer.frozen_station(context.deformer.top()),
+                         context.outline.rings(CurveName::cap, context.level)};
     for (const SpineLayer& layer : individual.spines) {
         const Meridian meridian(context.outline, layer.style.from, layer.style.to);
-        add_spines(
-            mesh, layer, context.detail, context.seed, context.textured, context.keep_absent,
-            [&](int k) {
-                const SpinePlace at = spine_place(k);
-                const double rank = static_cast<double>(k) / layer.style.count;
-                const double share =
-                    meridian.at(at.along + layer.style.shortening * (rank - at.along));
-                const bool on_cap = meridian.is_on_cap(share);
-                const double theta = 2.0 * pi * at.round;
-                // Where the margin is cut, spines move inwards with the surface.
-                const double cut = on_cap ? 1.0 - context.cuts.cap(2.0 - share, theta)
-                                          : context.cuts.lower(share, theta);
-                SurfacePoint point = context.rest_surface.meshed(
-                    on_cap ? Part::cap : Part::hymenium, on_cap ? upper : context.flesh,
-                    whole.columns, cut, theta);
-                if (on_cap)
-                    point.position += context.dents.cap(2.0 - share, theta) *
-                                      unit_or(glm::cross(point.meridian, point.azimuth),
-                                              glm::dvec3(0.0, 1.0, 0.0));
-                context.deformer.apply({&point, 1}, station);
-                if (!context.curl.none())
-                    point.position += context.curl.moved(on_cap, on_cap ? 1.0 - cut : cut, theta);
-                return SpineRoot{
-                    point.position,
-                    unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, -1.0, 0.0)),
-                    meridian.within(share)};
-            });
+        add_spines(mesh, layer, context.detail, context.seed, context.textured, context.keep_absent,
+                   [&](int k) { return root_on(face, meridian, layer.style, k); });
     }
 }
 

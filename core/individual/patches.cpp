@@ -22,6 +22,11 @@ constexpr double latitude_deviation = 0.32, longitude_deviation = 0.3;
 constexpr double least_size = 0.62, size_spread = 0.5, large_spread = 0.35;
 constexpr double apex_size = 1.15, margin_loss = 0.4;
 
+// The same for pieces that are as unlike as can be: the radius of the smallest granules, how much
+// granules differ, how much larger the few large ones are, and the further decrease to the margin.
+constexpr double granule_size = 0.32, granule_spread = 0.15, spine_spread = 1.25,
+                 uneven_margin_loss = 0.3;
+
 constexpr double least_height = 0.75, most_height = 1.25;  // in that of the style
 
 // The amount of veil from which on a patch is present: least and largest difference from it, and
@@ -116,8 +121,11 @@ Patch drawn_patch(const PatchStyle& style, const Window& window, const Rings& ri
     patch.theta = theta;
     // Patches are smaller towards the margin, where the cap grows most.
     const double reach = (tilt - window.from) / (window.to - window.from);
-    patch.drawn = least_size + size_spread * small + large_spread * large * large;
-    patch.radius = style.size * patch.drawn * (apex_size - margin_loss * reach);
+    const double alike = least_size + size_spread * small + large_spread * large * large;
+    const double unlike = granule_size + granule_spread * small + spine_spread * large * large;
+    patch.drawn = alike + style.unevenness * (unlike - alike);
+    const double loss = margin_loss + uneven_margin_loss * style.unevenness;
+    patch.radius = style.size * patch.drawn * (apex_size - loss * reach);
     patch.spin = spin;
     patch.height = style.height * height;
     // Rain removes the patches of the margin first.

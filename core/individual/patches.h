@@ -15,7 +15,7 @@ struct Patch {
     double sigma = 0.0;   ///< along the meridian, 0 at the apex (or the ground)
     double theta = 0.0;   ///< round the axis, 0..2 pi
     double radius = 0.0;  ///< before the amount is applied
-    double drawn = 0.0;   ///< random size factor, 0.62..1.47, independent of age and neighbours
+    double drawn = 0.0;   ///< random size factor, 0.3..1.75, independent of age and neighbours
     double spin = 0.0;    ///< rotation of its outline
     double height = 0.0;  ///< in its own radii
     double survival =

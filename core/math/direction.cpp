@@ -23,11 +23,12 @@ glm::dvec3 turned_square(const glm::dvec3& v, const glm::dvec3& axis, double ang
 glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
     const glm::dvec3 other =
         std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 any = unit_or(other - glm::dot(other, normal) * normal, other);
     const glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
     // A much shorter vector means that the direction was almost parallel to the normal: the rest is
     // rounding noise.
-    if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, other);
-    return unit_or(other - glm::dot(other, normal) * normal, other);
+    if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, any);
+    return any;
 }
 
 glm::dvec4 quaternion_of(const glm::dmat3& m) {

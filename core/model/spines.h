@@ -17,6 +17,7 @@ struct SpineStyle {
     double droop = 0.8;
     double unevenness = 0.4;
     double shortening = 0.0;
+    double shag = 0.0;
 
     static constexpr void fields(auto visit) {
         using S = SpineStyle;
@@ -32,7 +33,7 @@ struct SpineStyle {
                                .doc = "Length of the longest spines."});
         visit(&S::width, Info{.name = "width",
                               .unit = "m",
-                              .min = 0.00005,
+                              .min = 0.00002,
                               .max = 0.02,
                               .doc = "Diameter of a spine at its base."});
         visit(&S::from, Info{.name = "from",
@@ -60,6 +61,11 @@ struct SpineStyle {
                    .max = 1,
                    .doc = "How much shorter spines become towards `to`, as the felt "
                           "on top of a cushion is."});
+        visit(&S::shag, Info{.name = "shag",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "0 spines of one kind, 1 shaggy hair: bent, each its own way, "
+                                    "and gathered in tufts."});
     }
     bool operator==(const SpineStyle&) const = default;
 };

@@ -171,6 +171,8 @@ struct HymeniumSurface {
     Colour edge = {240, 230, 210};
     Colour depth = {190, 170, 140};
     double mottle = 0.2;
+    double felt = 0.0;
+    double cracks = 0.0;
     double roughness = 0.8;
     Upload image;
 
@@ -187,6 +189,15 @@ struct HymeniumSurface {
         visit(
             &H::mottle,
             Info{.name = "mottle", .min = 0, .max = 1, .doc = "Cloudy unevenness of the colour."});
+        visit(&H::felt, Info{.name = "felt",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "Matted hairs on a smooth face, as outside of a bird's nest."});
+        visit(&H::cracks, Info{.name = "cracks",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "How far a smooth face is cracked like dry mud, as the rays "
+                                      "of an earthstar are."});
         visit(&H::roughness,
               Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
         visit(&H::image, Info{.name = "image",

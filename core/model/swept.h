@@ -117,6 +117,8 @@ struct Azimuth {
     double lobe_from = 0.3;
     double lobe_pull = 0.0;
     double lobe_root = 0.5;
+    int lobe_spread = 0;
+    double lobe_lift = 0.0;
 
     static constexpr void fields(auto visit) {
         using A = Azimuth;
@@ -177,6 +179,15 @@ struct Azimuth {
                                   .max = 1,
                                   .doc = "Height that notches draw back to; 0 is the lowest point "
                                          "of the outline, 1 the highest."});
+        visit(&A::lobe_spread, Info{.name = "lobe_spread",
+                                    .min = 0,
+                                    .max = 3,
+                                    .doc = "Individuals have up to so many lobes more or fewer."});
+        visit(&A::lobe_lift,
+              Info{.name = "lobe_lift",
+                   .min = 0,
+                   .max = 0.5,
+                   .doc = "How far some lobes stand above others, in widest radii."});
     }
     bool operator==(const Azimuth&) const = default;
 };

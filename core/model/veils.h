@@ -12,6 +12,7 @@ namespace sporeprint {
 struct PatchStyle {
     int count = 0;
     double size = 0.05;
+    double unevenness = 0.0;
     double height = 0.5;
     double elongation = 1.0;
     double lift = 0.0;
@@ -22,11 +23,16 @@ struct PatchStyle {
     static constexpr void fields(auto visit) {
         using P = PatchStyle;
         visit(&P::count,
-              Info{.name = "count", .min = 0, .max = 400, .doc = "Pieces on the whole cap."});
+              Info{.name = "count", .min = 0, .max = 1600, .doc = "Pieces on the whole cap."});
         visit(&P::size, Info{.name = "size",
                              .min = 0.005,
                              .max = 0.3,
                              .doc = "Radius of a piece, in lengths of the young cap's meridian."});
+        visit(&P::unevenness, Info{.name = "unevenness",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How unlike the pieces are in size: 0 nearly alike, 1 a "
+                                          "few large ones among many granules."});
         visit(&P::height, Info{.name = "height",
                                .min = 0,
                                .max = 2,
@@ -58,10 +64,11 @@ struct PatchStyle {
                            .doc = "Where on the meridian the pieces end; 1 is the margin."});
     }
     /// Returns true if another style has its patches at the same places, in the same kind of
-    /// outline; sizes may differ.
+    /// outline and in the same order of size; sizes may differ.
     [[nodiscard]] constexpr bool has_places_of(const PatchStyle& other) const {
         return count == other.count && from == other.from && to == other.to &&
-               elongation == other.elongation && fray == other.fray;
+               elongation == other.elongation && fray == other.fray &&
+               unevenness == other.unevenness;
     }
     bool operator==(const PatchStyle&) const = default;
 };

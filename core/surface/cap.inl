@@ -283,6 +283,37 @@ HWY_INLINE void add_tuft(const PatchPlan& patch, const VeilPlan& veil, VF a, VF 
     texel.occlusion = texel.occlusion * (one - set(0.25F) * bundle * (one - gaps));
 }
 
+/// Draws the footprint of a spine: a ring of small grains, and within it, where the spine has
+/// fallen, a smooth mark with a rim.
+///
+/// a, b  place in half lengths and widths
+HWY_INLINE void add_footprint(const PatchPlan& patch, const VeilPlan& veil, VF a, VF b, VF window,
+                              Texel& texel) {
+    constexpr float grains = static_cast<float>(footprint_grains), ring = 1.12F;
+    const VF one = set(1.0F), zero = set(0.0F);
+    const VF wander = noise2(a * set(2.3F), b * set(2.3F), patch.seed);
+    const VF far = hn::Sqrt(a * a + b * b) + wander * set(0.16F);
+    const VF inverse = one / hn::Max(hn::Sqrt(a * a + b * b), set(1e-6F));
+    const VF place = turn_of(a * inverse, b * inverse) * set(grains);
+    const VF grain = hn::Floor(place);
+    const VF size = set(0.19F) + set(0.07F) * signed_hash(grain, patch.seed);
+    const VF along = (place - grain - set(0.5F)) * set(6.2831853F / grains * ring);
+    const VF across = far - set(ring) - set(0.10F) * signed_hash(grain, patch.seed + 1U);
+    const VF dome = hn::Max(one - (along * along + across * across) / (size * size), zero) * window;
+    const VF shown = set(patch.shown);
+    const VF between = (one - smooth(hn::Abs(far - set(ring)), 0.1F, 4.0F)) * (one - dome) * window;
+    const VF inside = (one - smooth(far, 0.78F, 6.0F)) * set(patch.fallen) * window;
+    const VF rim =
+        (one - smooth(hn::Abs(far - set(0.86F)), 0.0F, 6.0F)) * set(patch.fallen) * window;
+    texel.colour = mix(texel.colour, rgb(veil.colour), dome * shown * set(0.75F));
+    texel.colour = mix(texel.colour, rgb(veil.tip), inside * shown * set(0.30F));
+    texel.colour = shaded(texel.colour, one - (set(0.05F) * between + set(0.12F) * rim) * shown);
+    texel.height = texel.height +
+                   (hn::Sqrt(dome) * set(0.75F) - inside * set(0.5F)) * shown * set(patch.relief);
+    texel.occlusion = texel.occlusion * (one - set(0.12F) * between * shown);
+    texel.roughness = texel.roughness - set(0.08F) * inside * shown;
+}
+
 /// Draws one wart or scale over a texel: colour, roughness, a little relief, and shade round its
 /// base.
 HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF y, Texel& texel) {
@@ -292,6 +323,7 @@ HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
     const VF a = (dx * set(patch.along_x) + dy * set(patch.along_y)) * set(patch.per_length);
     const VF b = (dy * set(patch.along_x) - dx * set(patch.along_y)) * set(patch.per_width);
     const VF window = one - smooth(a * a + b * b, patch_window * patch_window - 0.6F, 1.0F / 0.6F);
+    if (patch.kind == 2) return add_footprint(patch, veil, a, b, window, texel);
     if (patch.kind == 0) {
         const VF grain = noise2(a * set(4.1F), b * set(4.1F), patch.seed);
         VF far = set(0.0F);

@@ -193,6 +193,62 @@ HWY_INLINE void add_slots(const HymeniumPlan& plan, const DiscPoint& p, VF share
         texel.height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
 }
 
+/// Adds matted hairs along the meridians of a smooth face: strands, and finer hairs across them.
+HWY_INLINE void add_felt(const HymeniumPlan& plan, const DiscPoint& p, VF share, const VF* fields,
+                         Layers& texel) {
+    const VF felt = set(plan.felt);
+    const VF turn = turn_of(p.cosine, p.sine);
+    const VF round = p.rho * set(6.2831853F / plan.disc.per_texel);
+    const float strands = static_cast<float>(felt_hairs[0]);
+    const float hairs = static_cast<float>(felt_hairs[1]);
+    const VF strand =
+        periodic_noise2(turn * set(strands) + fields[hymenium_middle] * set(1.6F),
+                        share * set(7.0F) + fields[hymenium_uneven], felt_hairs[0], plan.seed[3]) *
+        shown(round * set(1.0F / strands), 4.0F);
+    const VF hair = periodic_noise2(turn * set(hairs) + strand * set(2.4F), share * set(24.0F),
+                                    felt_hairs[1], plan.seed[4]) *
+                    shown(round * set(1.0F / hairs), 4.0F);
+    const VF up = strand + hair * set(0.6F);
+    texel.colour = mix(texel.colour, rgb(plan.edge), unit(up * set(1.2F)) * felt);
+    texel.colour = mix(texel.colour, rgb(plan.depth), unit(up * set(-1.3F)) * felt);
+    texel.shade = texel.shade * (set(1.0F) + up * set(0.35F) * felt);
+    texel.height = texel.height + (strand * set(0.8F / strands) + hair * set(0.6F / hairs)) * felt *
+                                      set(6.2831853F) * p.radius;
+    texel.occlusion = texel.occlusion + hn::Min(up, set(0.0F)) * set(0.5F) * felt;
+}
+
+/// Adds one set of cracks to a smooth face: plates that lie across the meridians, bulge between the
+/// cracks, and are torn unevenly.
+///
+/// scale  plates per length and per turn, over those of the plan
+/// size   of cracks: 1 gaping ones, less hair cracks, which are also paler and shallower
+HWY_INLINE void add_cracks(const HymeniumPlan& plan, const DiscPoint& p, VF share, const VF* fields,
+                           float scale, float size, std::uint32_t seed, Layers& texel) {
+    const VF one = set(1.0F), zero = set(0.0F);
+    const VF middle = fields[hymenium_middle], uneven = fields[hymenium_uneven];
+    const float rows = scale * plan.crack_rows;
+    const VF turn = turn_of(p.cosine, p.sine) + middle * set(0.012F);
+    const VF y = hn::Max(share * set(rows) + middle * set(0.6F) + uneven * set(0.5F), zero);
+    const Cells plate = ring_cells(turn, y, scale * plan.crack_from, plan.crack_grow, crack_tall,
+                                   cell_jitter, seed);
+    // Some cracks gape, others have hardly opened, and their edges are torn.
+    const VF torn = noise2(p.x * set(5.0F * rows), p.y * set(5.0F * rows), seed + 1U);
+    const VF half =
+        hn::Max(set(0.03F + 0.03F * size) * (one + uneven * set(2.2F) + torn * set(0.8F)), zero);
+    const VF open = (one - smooth(plate.border - half, -0.02F, 18.0F)) *
+                    set(plan.cracks * (0.3F + 0.7F * size)) * unit(half * set(40.0F));
+    const VF lip = (one - smooth(plate.border - half, 0.0F, 4.0F)) * (one - open);
+    const VF tone = lower_part(hash(plate.id)) * set(plan.cracks);
+    texel.shade = texel.shade * (one + tone * set(0.06F));
+    texel.colour = mix(texel.colour, rgb(plan.depth), open * set(0.8F));
+    texel.colour = mix(texel.colour, rgb(plan.edge), lip * set(0.35F * plan.cracks));
+    texel.shade = texel.shade * (one - open * set(0.38F));
+    texel.height = texel.height + (smooth(plate.border, 0.0F, 2.2F) * set(0.05F * plan.cracks) -
+                                   open * set(0.14F)) *
+                                      set(1.0F / rows);
+    texel.occlusion = texel.occlusion * (one - open * set(0.55F));
+}
+
 /// Returns a texel of the lower face. fields: values of hymenium_fields() at this texel
 HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
@@ -202,6 +258,7 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
     VF fine = set(0.0F);
     Layers texel;
     texel.height = set(0.0F);
+    texel.shade = one;
     if ((plan.fields & (1U << hymenium_bump)) != 0) {
         fine = fields[hymenium_bump];
         texel.height = fine * set(0.14F / hymenium_bump_frequency[0]);
@@ -223,12 +280,17 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
         texel.colour =
             mix(texel.colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
         texel.height = texel.height * set(0.35F + plan.relief);
+        if (plan.felt > 0.0F) add_felt(plan, p, share, fields, texel);
+        if (plan.cracks > 0.0F) {
+            add_cracks(plan, p, share, fields, 1.0F, 1.0F, plan.seed[5], texel);
+            add_cracks(plan, p, share, fields, 2.3F, 0.45F, plan.seed[2], texel);
+        }
     } else {
         add_slots(plan, p, share, texel);
     }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);
     Texel out;
-    out.colour = shaded(texel.colour, hn::Max(shade, set(0.05F)));
+    out.colour = shaded(texel.colour, hn::Max(shade * texel.shade, set(0.05F)));
     out.height = texel.height;
     out.roughness = set(plan.roughness) + fine * set(0.03F) + middle * set(0.03F * plan.mottle);
     out.occlusion = texel.occlusion;

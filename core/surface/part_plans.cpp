@@ -232,6 +232,12 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
     plan.mottle = single(face.mottle);
+    plan.felt = single(face.felt);
+    plan.cracks = single(face.cracks);
+    plan.crack_rows = single(crack_plates);
+    plan.crack_from =
+        single(2.0 * pi * inner / arc * crack_plates * static_cast<double>(crack_tall));
+    plan.crack_grow = single(2.0 * pi * (outer - inner) / arc * static_cast<double>(crack_tall));
     const SlotAssignment assignment = slot_assignment_of(params);
     plan.layout = gill_layout_plan(params, assignment);
     plan.tiers = assignment.tiers;
@@ -387,7 +393,9 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
     const double gap =
         2.0 * pi * radius /
         static_cast<double>(params.hymenium.blades << std::min(params.hymenium.tiers, 1));
-    plan.steep = single(std::clamp(params.hymenium.relief * depth * arc / gap, 0.2, 6.0));
+    // Hairs of a felt stand alone, and light reaches their bases.
+    plan.steep = single(std::clamp(params.hymenium.relief * depth * arc / gap, 0.2, 6.0) *
+                        (1.0 - 0.85 * face.felt));
     plan.pale = single(interreflection(face.colour));
     plan.grain = resolvable(share * frame.width / static_cast<double>(blade_grain));
     return plan;
@@ -407,34 +415,77 @@ FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
+namespace {
+
+/// Heights of a style, in radii, from which its pieces leave footprints, and fully do: those of the
+/// spines of core/geometry/ornaments.cpp.
+constexpr double least_spine = 0.9, full_spine = 1.5;
+
+/// Size of a footprint, in that of the piece before any of it has fallen.
+constexpr double footprint_size = 1.15;
+
+/// Opacity of footprints per amount of veil, so that they appear with the first of it.
+constexpr double footprint_onset = 12.0;
+
+/// Returns a piece at its place, as long and as wide as `radius` says.
+PatchPlan placed_patch(const Patch& patch, const PatchStyle& style, double radius,
+                       const PaintPlan& plan) {
+    const double length = std::max(radius * style.elongation, 1e-4);
+    const double width =
+        std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
+    const SineCosine turn = sine_cosine(patch.theta);
+    PatchPlan one;
+    one.x = single(patch.sigma * turn.cosine);
+    one.y = single(patch.sigma * turn.sine);
+    one.along_x = single(turn.cosine);
+    one.along_y = single(turn.sine);
+    one.per_length = single(1.0 / length);
+    one.per_width = single(1.0 / width);
+    one.reach = patch_window * single(std::max(length, width));
+    one.hairs = resolvable(width * 0.5 * plan.frames[0].width / tuft_hairs);
+    return one;
+}
+
+/// Adds the ring of grains round a spine, and the mark that is left where the spine has fallen.
+///
+/// shown  opacity, 0..1
+/// left   0..1: how much of the spine is left
+void add_footprint(const Patch& patch, const PatchStyle& style, double radius, double shown,
+                   double left, std::uint32_t seed, PaintPlan& plan) {
+    PatchPlan one = placed_patch(patch, style, footprint_size * radius, plan);
+    one.kind = 2;
+    one.relief = single(0.22 * radius);
+    one.fallen = single(1.0 - left);
+    one.shown = single(shown) * resolvable(0.5 * plan.frames[0].width * 2.0 * pi /
+                                           (footprint_grains * static_cast<double>(one.per_width)));
+    one.seed = Random(seed, purposes::wart_outlines, patch.id).bits();
+    if (one.shown > 0.0F) plan.patches.push_back(one);
+}
+
+}  // namespace
+
 void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t seed,
                  double weight, PaintPlan& plan) {
     const bool warts = kind == 0;
     if (amount <= 0.0) return;
+    const double footprints = warts ? smooth_step(least_spine, full_spine, style.height) *
+                                          std::min(1.0, footprint_onset * amount)
+                                    : 0.0;
     for (const Patch& patch : patches(style, seed, warts ? purposes::warts : purposes::scales)) {
+        if (patch.radius <= 0.0) continue;
         const double scale = patch_scale(patch, amount);
-        if (scale <= 0.0 || patch.radius <= 0.0) continue;
+        if (footprints > 0.0)
+            add_footprint(patch, style, patch.radius * weight, footprints, scale, seed, plan);
+        if (scale <= 0.0) continue;
         // A wart shrinks with weathering; a scale is flattened, but stays.
         const double radius = patch.radius * weight * (kind == 0 ? scale : 0.7 + 0.3 * scale);
-        const double length = std::max(radius * style.elongation, 1e-4);
-        const double width =
-            std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
-        const SineCosine turn = sine_cosine(patch.theta);
-        PatchPlan one;
+        PatchPlan one = placed_patch(patch, style, radius, plan);
         one.kind = kind;
-        one.x = single(patch.sigma * turn.cosine);
-        one.y = single(patch.sigma * turn.sine);
-        one.along_x = single(turn.cosine);
-        one.along_y = single(turn.sine);
         one.lift = single(std::clamp(3.0 * style.lift, -1.0, 1.0));
-        one.per_length = single(1.0 / length);
-        one.per_width = single(1.0 / width);
         one.relief =
             single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
         one.fray = single(style.fray);
-        one.hairs = resolvable(width * 0.5 * plan.frames[0].width / tuft_hairs);
         one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
-        one.reach = patch_window * single(std::max(length, width));
         Random stream(seed, warts ? purposes::wart_outlines : purposes::scale_outlines, patch.id);
         one.seed = stream.bits();
         for (std::size_t side = 0; side < 6; ++side) {

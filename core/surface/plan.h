@@ -188,6 +188,11 @@ struct HymeniumPlan {
     float pore_from = 6.0F;    ///< pores round the inner edge
     float pore_grow = 0.0F;    ///< additional pores per row
     float pore_shown = 0.0F;   ///< 0 when pores are smaller than texels
+    float felt = 0.0F;         ///< matted hairs, 0..1
+    float cracks = 0.0F;       ///< as of dry mud, 0..1
+    float crack_rows = 1.0F;   ///< plates between cracks from the inner edge to the rim
+    float crack_from = 6.0F;   ///< plates round the inner edge
+    float crack_grow = 0.0F;   ///< additional plates per row
     std::array<float, 2> bumps{};
     unsigned fields = 0;
 };
@@ -237,6 +242,12 @@ inline constexpr std::array<int, 3> stem_fibre_cells = {17, 46, 109};
 inline constexpr std::array<float, 3> stem_fibre_slender = {0.16F, 0.10F, 0.08F};
 inline constexpr std::array<float, 3> cap_bump_frequency = {21.0F, 52.0F, 118.0F};
 inline constexpr std::array<float, 2> hymenium_bump_frequency = {30.0F, 62.0F};
+/// Strands and hairs of felt round a lower face.
+inline constexpr std::array<int, 2> felt_hairs = {230, 640};
+/// Length of a plate between cracks over its width.
+inline constexpr float crack_tall = 0.52F;
+/// Plates between cracks from the inner edge of a lower face to its rim.
+inline constexpr double crack_plates = 8.0;
 inline constexpr float net_columns = 46.0F;
 inline constexpr float net_stretch = 2.3F;
 
@@ -274,7 +285,7 @@ inline constexpr double flesh_width = 0.4;
 inline constexpr float blade_grain = 72.0F;  ///< lines across a blade
 inline constexpr std::array<float, 3> flesh_bump_frequency = {11.0F, 26.0F, 58.0F};
 
-/// A painted wart or scale on the cap's disc.
+/// A painted wart or scale on the cap's disc, or the footprint of a spine.
 struct PatchPlan {
     float x = 0.0F, y = 0.0F;              ///< centre, in disc radii
     float along_x = 0.0F, along_y = 0.0F;  ///< unit vector away from the apex
@@ -288,11 +299,14 @@ struct PatchPlan {
     float reach = 0.0F;  ///< extent along the rows, in disc radii
     std::array<float, 6> side_x{}, side_y{};
     std::uint32_t seed = 0;
-    int kind = 0;  ///< 0 wart, 1 scale
+    float fallen = 0.0F;  ///< of a footprint: how far its spine has fallen, 0..1
+    int kind = 0;         ///< 0 wart, 1 scale, 2 footprint
 };
 
 /// Distance, in half lengths and widths, beyond which a patch changes nothing.
 inline constexpr float patch_window = 1.45F;
+/// Grains round the footprint of a spine.
+inline constexpr double footprint_grains = 13.0;
 /// Hairs side by side in a tuft, about.
 inline constexpr double tuft_hairs = 5.0;
 

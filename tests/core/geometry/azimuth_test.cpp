@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -163,8 +164,9 @@ TEST(Azimuth, LobesTooFineForTheColumnsBecomeACircleOfTheirArea) {
     const AzimuthMap fine(star, 64), coarse(star, 8);
     double sum = 0.0, least = 1.0, most = 0.0;
     for (int i = 0; i < 360; ++i) {
-        const double reach = fine.column(radians(i)).lobes[0].value;
-        sum += reach * reach / 360.0;
+        const AzimuthMap::Column column = fine.column(radians(i));
+        const double reach = column.lobes[0].value;
+        sum += reach * reach * column.turning / 360.0;
         least = std::min(least, reach);
         most = std::max(most, reach);
         EXPECT_EQ(coarse.column(radians(i)).lobes[0].value, coarse.column(0.0).lobes[0].value);
@@ -174,6 +176,69 @@ TEST(Azimuth, LobesTooFineForTheColumnsBecomeACircleOfTheirArea) {
     EXPECT_NEAR(coarse.column(0.0).lobes[0].value, std::sqrt(sum), 0.03);
 }
 
+TEST(Azimuth, IndividualsDifferInTheNumberOfTheirLobesWithinTheSpread) {
+    Azimuth form;
+    form.lobes = 5;
+    form.lobe_depth = 0.6;
+    form.lobe_uneven = 0.0;
+    form.lobe_spread = 1;
+    std::array<int, 16> seen{};
+    for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+        Individual star = resolve(order_of("disciotis_venosa", 0.6, seed), atlas());
+        star.lobes = {form};
+        const AzimuthMap map(star, 96);
+        std::size_t crests = 0;
+        const auto reach = [&](int i) { return map.column(radians(i)).lobes[0].value; };
+        for (int i = 0; i < 360; ++i)
+            if (reach(i) > reach(i - 1) && reach(i) >= reach(i + 1)) ++crests;
+        ASSERT_LT(crests, seen.size());
+        ++seen[crests];
+    }
+    EXPECT_EQ(seen[4] + seen[5] + seen[6], 60);
+    for (const std::size_t lobes : {4U, 5U, 6U}) EXPECT_GT(seen[lobes], 8) << lobes << " lobes";
+}
+
+TEST(Azimuth, SomeLobesStandAboveOthersAndTheCoreStays) {
+    Individual star = resolve(order_of("disciotis_venosa"), atlas());
+    Azimuth form;
+    form.lobes = 5;
+    form.lobe_depth = 0.6;
+    form.lobe_lift = 0.4;
+    star.lobes = {form};
+    const AzimuthMap map(star, 96);
+    double least = 1.0, most = 0.0;
+    for (int i = 0; i < 360; ++i) {
+        const AzimuthMap::Column column = map.column(radians(i));
+        least = std::min(least, column.lobes[0].lift);
+        most = std::max(most, column.lobes[0].lift);
+        EXPECT_EQ(mapped(map, column, 0.001, 0.01).y, 0.01) << "inside of the core";
+    }
+    EXPECT_GE(least, 0.0);
+    EXPECT_GT(most, 3.0 * least);
+    form.lobe_depth = 0.0;
+    star.lobes = {form};
+    EXPECT_TRUE(AzimuthMap(star, 96).identity()) << "without lobes nothing is lifted";
+}
+
+TEST(Azimuth, ColumnsGatherAtTheCrestsOfPointedLobes) {
+    Individual star = resolve(order_of("disciotis_venosa"), atlas());
+    Azimuth form;
+    form.lobes = 5;
+    form.lobe_depth = 0.7;
+    form.lobe_sharpness = 1.0;
+    star.lobes = {form};
+    const AzimuthMap map(star, 96);
+    double on_crest = 0.0, in_notch = 0.0, longest = 0.0, shortest = 1.0;
+    for (int i = 0; i < 720; ++i) {
+        const AzimuthMap::Column column = map.column(radians(0.5 * i));
+        const double reach = column.lobes[0].value;
+        if (reach > longest) longest = reach, on_crest = column.turning;
+        if (reach < shortest) shortest = reach, in_notch = column.turning;
+    }
+    EXPECT_LT(on_crest, 0.8);
+    EXPECT_GT(in_notch, 1.2);
+}
+
 TEST(Azimuth, LevelsOfDetailShowTheSameFanAndTheSameLobes) {
     Random random(8, 1);
     const double allowed[] = {0.0, 0.04, 0.11};
@@ -181,6 +246,7 @@ TEST(Azimuth, LevelsOfDetailShowTheSameFanAndTheSameLobes) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             Azimuth azimuth = arbitrary_azimuth(random);
             azimuth.lobes = std::min(azimuth.lobes, 6);
+            azimuth.lobe_spread = 0;  // more lobes are a circle at LOD 2
             azimuth.lobe_depth = std::min(azimuth.lobe_depth, 0.4);
             const Mesh finest =
                 swept_mesh(with(resolve(order_of(id, 0.6, seed), atlas()), azimuth), 0);

@@ -52,6 +52,24 @@ TEST(Budget, ASingleSpeciesIsNotCoarsened) {
         for (int lod = 0; lod < 4; ++lod) expect_nothing_given_up({{id, 1000}}, lod);
 }
 
+TEST(Budget, GranulesAndFineHairsAreBuiltWhereTrianglesAreLeft) {
+    const auto surplus = [](const Mix& mix, int lod) {
+        return budget_at(mix, 0.6, lod).ornaments.surplus;
+    };
+    for (const char* const id : {"lycoperdon_perlatum", "cyathus_striatus"}) {
+        EXPECT_EQ(surplus({{id, 1000}}, 0), 1.0) << id;
+        EXPECT_LT(surplus({{id, 500}, {"amanita_phalloides", 500}}, 0), 1.0)
+            << id << ": the gills of the other come first";
+        EXPECT_EQ(surplus({{id, 1000}}, 1), 0.0) << id;
+    }
+    OrnamentDetail detail = detail_of(0);
+    EXPECT_EQ(detail.offered(100, sure_patches), 100.0);
+    EXPECT_EQ(detail.offered(1000, sure_patches), 1000.0);
+    detail.surplus = 0.0;
+    EXPECT_EQ(detail.offered(100, sure_patches), 100.0);
+    EXPECT_EQ(detail.offered(1000, sure_patches), sure_patches);
+}
+
 TEST(Budget, APairIsNotCoarsenedAtTheFinestLevel) {
     for (const auto& [a, b] : species_pairs()) expect_nothing_given_up({{a, 500}, {b, 500}}, 0);
 }

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "core/geometry/damage_cuts.h"
+#include "core/geometry/grid_solid.h"
 #include "core/geometry/hymenium.h"
 #include "core/grow/mushroom.h"
+#include "core/math/elementary.h"
 #include "core/surface/charts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -42,6 +44,34 @@ TEST(Ornaments, WartsAreClosedSolidsThatFaceOutwards) {
         << "95 pieces are asked for, those that overlap are left out";
     EXPECT_LE(all.size(), none.size() + 95);
     for (const double volume : all) EXPECT_GT(volume, 0.0);
+}
+
+TEST(Ornaments, TheSkinPassesIntoTheSkirtOfASpineWithoutAnEdgeInTheShading) {
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    // Returns how steep the normals of the base of a cone are: 1 upright, 0 level.
+    const auto upright = [&](double share) {
+        GridSolid cone{{3, 8, false}, Part::veil, {}, {}};
+        for (int i = 0; i < cone.rows; ++i)
+            for (int j = 0; j <= cone.columns; ++j) {
+                const SineCosine turn = sine_cosine(-2.0 * pi * (j % cone.columns) / cone.columns);
+                const double r = 1.0 - 0.5 * i;
+                cone.corners.emplace_back(r * turn.cosine, 2.0 - 2.0 * r, r * turn.sine);
+            }
+        cone.skirt = share * up;
+        Mesh mesh;
+        append(mesh, cone, up, false, true);
+        double least = 1.0;
+        for (int j = 0; j <= cone.columns; ++j)
+            least =
+                std::min(least, static_cast<double>(mesh.normals[static_cast<std::size_t>(j)].y));
+        return least;
+    };
+    EXPECT_NEAR(upright(1.0), 1.0, 1e-6);
+    EXPECT_GT(upright(0.5), upright(0.0));
+    EXPECT_LT(upright(0.0), 0.5);
+    for (const double age : {0.0, 0.6, 0.82, 1.0})
+        for (int lod = 0; lod < 4; ++lod)
+            expect_valid(mesh_of(textured(order_of("lycoperdon_perlatum", age, 3, lod))));
 }
 
 TEST(Ornaments, WartsShrinkAndDisappearWithTheVeil) {

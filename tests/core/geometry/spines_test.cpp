@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,40 @@ TEST(Spines, HangWhenTheyDroopAndStandWhenTheyDoNot) {
         EXPECT_GT(tip.z, 0.02);
         EXPECT_LT(std::abs(tip.y), 0.005);
     }
+}
+
+TEST(Spines, ShaggyOnesLeanToTheMiddleOfTheirTuftAndEachItsOwnWay) {
+    SpineLayer layer = layer_of(60, 0.02, 0.0);
+    const auto tips = [&](double shag) {
+        layer.style.shag = shag;
+        Mesh mesh;
+        add_spines(mesh, layer, detail_of(0), 7, false, false, [&](int k) {
+            return SpineRoot{
+                glm::dvec3(0.1 * k, 0.0, 0.0), {0.0, 0.0, 1.0}, 0.0, 1.0, {1.0, 0.0, 0.0}};
+        });
+        std::vector<glm::dvec3> found;
+        for (const Mesh& piece : pieces(mesh)) {
+            glm::dvec3 tip(0.0);
+            for (const glm::vec3& p : piece.positions)
+                if (p.z > tip.z) tip = glm::dvec3(p);
+            tip.x -= 0.1 * std::floor(tip.x / 0.1 + 0.5);
+            found.push_back(tip);
+        }
+        return found;
+    };
+    const auto spread = [](const std::vector<glm::dvec3>& all) {
+        double lean = 0.0, square = 0.0;
+        for (const glm::dvec3& tip : all) {
+            lean += tip.x / static_cast<double>(all.size());
+            square += tip.y * tip.y / static_cast<double>(all.size());
+        }
+        return glm::dvec2(lean, std::sqrt(square));
+    };
+    const std::vector<glm::dvec3> plain = tips(0.0), shaggy = tips(1.0);
+    ASSERT_EQ(plain.size(), shaggy.size());
+    EXPECT_NEAR(spread(plain).x, 0.0, 0.001);
+    EXPECT_GT(spread(shaggy).x, 0.005) << "they lean the way of their tuft";
+    EXPECT_GT(spread(shaggy).y, 2.0 * spread(plain).y) << "and stray more";
 }
 
 TEST(Spines, OfLengthZeroHaveNoTriangles) {

@@ -54,10 +54,20 @@ MushroomSpec without_patches(MushroomSpec spec) {
     return spec;
 }
 
+/// Leaves out of both orders the patches of a set at LOD 0 that has no triangles for all granules
+/// and hairs of its species. Returns false when such a set has spines, which no order leaves out.
+bool comparable(MushroomSpec& alone, MushroomSpec& beside) {
+    if (budget_of(resolved(beside), 0).ornaments.surplus >= 1.0) return true;
+    alone = without_patches(alone);
+    beside = without_patches(beside);
+    return !has_spines(beside);
+}
+
 /// Expects that a species mixed with a thousandth of another deviates by at most `allowance`,
 /// without its gills; these follow in expect_solids_converge().
 void expect_convergence(MushroomSpec alone, MushroomSpec beside, double (*allowance)(const Mesh&)) {
     if (!has_segments(alone)) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
+    if (!comparable(alone, beside)) return;
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), allowance(pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
@@ -67,8 +77,9 @@ void expect_convergence(MushroomSpec alone, MushroomSpec beside, double (*allowa
 }
 
 /// The same with gills, pores and spines.
-void expect_solids_converge(const MushroomSpec& alone, const MushroomSpec& beside) {
+void expect_solids_converge(MushroomSpec alone, MushroomSpec beside) {
     if (has_segments(alone)) return expect_convergence(alone, beside, hairs_breadth_of_flat);
+    if (!comparable(alone, beside)) return;
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), hairs_breadth(pure)) << text_of(beside.mix);
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << text_of(beside.mix);
@@ -248,6 +259,7 @@ TEST(Morph, TheSurfaceOfEightSpeciesConvergesTowardsWeightOne) {
         alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
         // A crowded set has fewer spines, and a net of fewer meshes, at other places.
         if (budget_of(resolved(beside), 0).ornaments.free_solids < 1.0) continue;
+        if (!comparable(alone, beside)) continue;
         if (is_crowded(beside)) {  // corners of its patches differ
             alone = without_patches(alone);
             beside = without_patches(beside);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -108,6 +110,26 @@ TEST(Patches, ASmallChangeOfStyleMovesThemLittle) {
         const double radius = j < after.size() && after[j].id == patch.id ? after[j].radius : 0.0;
         EXPECT_NEAR(radius, patch.radius, 0.002);
     }
+}
+
+TEST(Patches, UnevenOnesAreAFewLargeAmongManyGranules) {
+    PatchStyle style = warts();
+    style.size = 0.01;  // none is crowded out
+    const auto sizes = [&](double unevenness) {
+        style.unevenness = unevenness;
+        std::vector<double> drawn;
+        for (const Patch& patch : patches(style, 5, purposes::warts)) drawn.push_back(patch.drawn);
+        std::sort(drawn.begin(), drawn.end());
+        return drawn;
+    };
+    const std::vector<double> alike = sizes(0.0), unlike = sizes(1.0), between = sizes(0.5);
+    ASSERT_EQ(unlike.size(), alike.size()) << "no unevenness changes the number of vertices";
+    const std::size_t middle = alike.size() / 2;
+    EXPECT_LT(alike.back(), 2.4 * alike.front());
+    EXPECT_GT(unlike.back(), 4.0 * unlike.front());
+    EXPECT_LT(unlike[middle], 0.5 * unlike.back()) << "half of them are small";
+    EXPECT_LT(between[middle], alike[middle]);
+    EXPECT_GT(between[middle], unlike[middle]);
 }
 
 TEST(Patches, ShrinkToZeroWithTheAmount) {

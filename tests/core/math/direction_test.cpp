@@ -48,6 +48,10 @@ TEST(Direction, PerpendicularVectorsRotateRightHanded) {
         EXPECT_NEAR(glm::dot(turned_square(flat, axis, 0.7), flat), sine_cosine(0.7).cosine, 1e-9);
     }
     EXPECT_NEAR(glm::dot(square_to({0, 1, 0}, {0, 2, 0}), glm::dvec3(0, 1, 0)), 0.0, 1e-12);
+    // A direction of nearly no length still gives a perpendicular.
+    EXPECT_NEAR(glm::dot(square_to({0, 1, 0}, {0, 1e-17, 1e-17}), glm::dvec3(0, 1, 0)), 0.0, 1e-12);
+    EXPECT_NEAR(glm::dot(square_to({0.6, 0.8, 0}, {0, 0, 1e-17}), glm::dvec3(0.6, 0.8, 0)), 0.0,
+                1e-12);
 }
 
 // Whatever the rotation, also by half a turn, where the real part is nothing.

@@ -197,6 +197,60 @@ TEST(Paint, FrayedScalesCoverLessAndAreRagged) {
         << "more edges for what they cover";
 }
 
+TEST(Paint, FallenSpinesLeaveMarksAndFallenWartsNone) {
+    PaintParams params;
+    params.seed = 4;
+    params.side = 512;
+    params.warts = {.count = 60, .size = 0.09};
+    params.surface.cap.ramp = {{255, 255, 255}};
+    params.surface.veil.colour = params.surface.veil.tip = {0, 0, 0};
+    const auto dark = [&](double height, double amount) {
+        params.warts.height = height;
+        params.ornaments.warts = amount;
+        const RawImages images = paint_raw(params);
+        double sum = 0.0;
+        for (int y = 0; y < 256; ++y)
+            for (int x = 0; x < 256; ++x) sum += 255 - texel(images, ImageKind::base_color, x, y).r;
+        return sum;
+    };
+    const double bare = dark(0.5, 0.0);
+    EXPECT_EQ(dark(1.6, 0.0), bare) << "without any veil there is no trace of it";
+    const double warts = dark(0.5, 0.15) - bare, marks = dark(1.6, 0.15) - bare;
+    EXPECT_GT(marks, 2.0 * warts) << "most have fallen";
+    EXPECT_LT(marks, dark(1.6, 1.0) - bare) << "but marks are paler than what stood there";
+}
+
+TEST(Paint, FeltAndCracksDarkenASmoothLowerFaceAndRoughenItsRelief) {
+    PaintParams params;
+    params.seed = 4;
+    params.side = 512;
+    params.surface.hymenium.pattern = HymeniumPattern::smooth;
+    params.surface.hymenium.mottle = 0.0;
+    params.surface.hymenium.colour = params.surface.hymenium.edge = {220, 200, 180};
+    params.surface.hymenium.depth = {60, 40, 20};
+    struct Look {
+        double light = 0.0, slope = 0.0;
+    };
+    const auto look = [&](double felt, double cracks) {
+        params.surface.hymenium.felt = felt;
+        params.surface.hymenium.cracks = cracks;
+        const RawImages images = paint_raw(params);
+        Look sum;
+        for (int y = 0; y < 256; ++y)
+            for (int x = 256; x < 512; ++x) {
+                sum.light += texel(images, ImageKind::base_color, x, y).r;
+                sum.slope += 255 - texel(images, ImageKind::normal, x, y).b;
+            }
+        return sum;
+    };
+    const Look smooth = look(0.0, 0.0);
+    for (const Look& rough : {look(1.0, 0.0), look(0.0, 1.0)}) {
+        EXPECT_LT(rough.light, 0.995 * smooth.light);
+        EXPECT_GT(rough.light, 0.5 * smooth.light);
+        EXPECT_GT(rough.slope, 1.2 * smooth.slope);
+    }
+}
+
 TEST(Paint, OrmHasNoMetal) {
     const RawImages images = paint_raw(motley(HymeniumPattern::ridges));
     for (std::size_t i = 2; i < images.rgb[2].size(); i += 3) ASSERT_EQ(images.rgb[2][i], 0);
