@@ -24,10 +24,10 @@ constexpr glm::vec3 back_lamp_strength(0.34F, 0.36F, 0.40F);
 constexpr glm::vec3 zenith(0.46F, 0.50F, 0.56F), horizon(0.40F, 0.40F, 0.40F),
     ground(0.15F, 0.135F, 0.11F);
 
-/// Light of a pale board that lies below the scene in place of the ground when it is seen from below,
+/// Light of a pale reflector that lies below the scene in place of the ground when it is seen from below,
 /// as photographers light gills and pores; the camera's rise, as a sine, from which on it is there.
-constexpr glm::vec3 board(0.50F, 0.49F, 0.47F);
-constexpr double board_rise = 0.3;
+constexpr glm::vec3 reflector(0.50F, 0.49F, 0.47F);
+constexpr double reflector_rise = 0.3;
 
 /// Lights of the lamp, of the lamp behind, of the sky and of the ground.
 constexpr int lamp_parts = 8, back_lamp_parts = 2, sky_parts = 20, ground_parts = 8;
@@ -96,8 +96,8 @@ StudioLights studio_lights(const CameraAxes& axes, int detail) {
     add_lamp(lights.lamps, 0.75 * right + 0.45 * up + 0.75 * forward, back_lamp_radius,
              share(back_lamp_parts), back_lamp_strength);
     const auto from_below =
-        static_cast<float>(smooth_step(0.0, board_rise, static_cast<double>(axes.forward.y)));
-    const glm::vec3 lower = ground + (board - ground) * from_below;
+        static_cast<float>(smooth_step(0.0, reflector_rise, static_cast<double>(axes.forward.y)));
+    const glm::vec3 lower = ground + (reflector - ground) * from_below;
     add_half(lights.surroundings, share(sky_parts), 1.0, surroundings);
     add_half(lights.surroundings, share(ground_parts), -1.0,
              [&](const glm::vec3&) { return lower; });

@@ -26,7 +26,7 @@ struct StudioLights {
 };
 
 /// Returns the lights of a picture; the lamps turn with the camera. Seen from below, the scene stands
-/// above a pale board in place of the dark ground.
+/// above a pale reflector in place of the dark ground.
 ///
 /// detail  1 for all of them, 2 for about half as many, and so on
 [[nodiscard]] StudioLights studio_lights(const CameraAxes& axes, int detail);
