@@ -178,7 +178,7 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     const VF one = set(1.0F);
     const VF height = (along - set(plan.foot)) * set(1.0F / plan.soil_reach);
     // Beyond this height no noise can bring soil.
-    if (hn::AllTrue(Floats(), height >= set(4.4F))) return;
+    if (hn::AllTrue(Floats(), height >= set(7.0F))) return;
     const VF length = along * set(plan.aspect);
     const VF broad = fields[stem_broad];
     const VF middle = fields[stem_middle];
@@ -199,20 +199,29 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     }
     if (plan.soil <= 0.0F) return;
     const VF amount = set(plan.soil);
-    const VF level = height * set(1.25F) + broad * set(0.6F) + middle * set(0.55F) - set(0.8F);
+    // It clings in lumps: here it reaches high, there the skin is bare into the ground. At the pole
+    // there is one lump.
+    const VF lump = (periodic_noise2(turn * set(5.0F) + middle * set(0.2F), length * set(4.0F), 5,
+                                     plan.seed[11] + 2U) +
+                     set(0.5F) * periodic_noise2(turn * set(13.0F), length * set(11.0F), 13,
+                                                 plan.seed[11] + 3U)) *
+                    smooth(along, 0.0F, 1.0F / std::max(0.6F * plan.foot, 1e-3F));
+    const VF level = height * set(1.25F) + broad * set(0.6F) + middle * set(0.55F) +
+                     lump * set(2.6F) - set(0.8F);
+    const VF left = one - smooth(lump, 0.0F, 1.0F / 0.45F) * set(0.75F);
     // Fine soil is rubbed into the skin; it stays in the furrows between fibres. A thin film lets the
     // skin through, and tints it.
     const VF uneven = level + thread * set(0.3F);
     const VF rubbed = (set(0.70F) * (one - smooth(uneven, -0.9F, 1.0F / 1.9F)) +
                        set(0.30F) * (one - smooth(uneven, -0.1F, 1.0F / 2.4F))) *
-                      amount;
+                      left * amount;
     texel.colour = mix(texel.colour,
                        Rgb{texel.colour.r * set(plan.film.r), texel.colour.g * set(plan.film.g),
                            texel.colour.b * set(plan.film.b)},
                        rubbed);
     texel.colour = mix(texel.colour, rgb(plan.soil_colour), rubbed * rubbed * set(0.8F));
     texel.roughness = mix(texel.roughness, set(0.95F), rubbed);
-    const VF whole = (one - smooth(level, -0.8F, 1.0F / 0.8F)) * amount;
+    const VF whole = (one - smooth(level, -0.8F, 1.0F / 0.8F)) * left * amount;
     texel.colour = mix(texel.colour, rgb(plan.soil_colour), whole);
     const VF fine = one - smooth(level, -0.9F, 1.0F / 3.2F);
     const VF coarse = one - smooth(level + thread * set(0.2F), -1.0F, 1.0F / 2.6F);
