@@ -42,6 +42,8 @@ class TubeSolid {
             low_ = glm::min(low_, station.at - reach);
             high_ = glm::max(high_, station.at + reach);
             thickest_ = std::max(thickest_, station.radius);
+            widest_ = std::max(widest_, std::max(station.wide, station.thin));
+            thinnest_ = std::min(thinnest_, std::min(station.wide, station.thin));
         }
     }
 
@@ -57,11 +59,15 @@ class TubeSolid {
     /// Gradient, radius and colour are means of those of near sections, so that they change without
     /// a jump where another section is the nearest.
     ///
+    /// reach     beyond this distance nothing is known of a place but that it is far, metres
     /// sections  scratch
-    [[nodiscard]] Nearness near(const glm::dvec3& place, std::vector<Nearness>& sections) const {
+    [[nodiscard]] Nearness near(const glm::dvec3& place, double reach,
+                                std::vector<Nearness>& sections) const {
         sections.clear();
+        const double counts = reach + section_reach * thickest_;
         double distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i + 1 < sections_.size(); ++i) {
+            if (least_distance(place, sections_[i], sections_[i + 1]) > counts) continue;
             sections.push_back(section_near(place, sections_[i], sections_[i + 1]));
             distance = std::min(distance, sections.back().distance);
         }
@@ -105,6 +111,14 @@ class TubeSolid {
                 a.colour + t * (b.colour - a.colour)};
     }
 
+    /// Returns a lower bound of the distance of a section, for places outside of it.
+    [[nodiscard]] double least_distance(const glm::dvec3& place, const Section& a,
+                                        const Section& b) const {
+        const double out =
+            glm::distance(place, 0.5 * (a.at + b.at)) - 0.5 * glm::distance(a.at, b.at);
+        return (out / widest_ - std::max(a.radius, b.radius)) * thinnest_;
+    }
+
     static double widest(const Station& station) {
         return station.radius * std::max(station.wide, station.thin);
     }
@@ -112,7 +126,9 @@ class TubeSolid {
     std::vector<Section> sections_;
     glm::dvec3 low_{std::numeric_limits<double>::infinity()};
     glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
-    double thickest_ = 0.0;
+    double thickest_ = 0.0;  ///< greatest radius of its stations, metres
+    double widest_ = 0.0;    ///< greatest factor on a radius
+    double thinnest_ = std::numeric_limits<double>::infinity();  ///< least one
 };
 
 /// How a vertex looks: its unit normal and its Station::colour.
@@ -165,9 +181,9 @@ void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tu
         Look sum = own;
         for (const std::size_t other : neighbours[tube]) {
             const TubeSolid& solid = solids[other];
-            if (!solid.may_reach(place, colour_reach * std::min(radius, solid.thickest())))
-                continue;
-            const Look by = change(own, radius, solid.near(place, sections));
+            const double reach = colour_reach * std::min(radius, solid.thickest());
+            if (!solid.may_reach(place, reach)) continue;
+            const Look by = change(own, radius, solid.near(place, reach, sections));
             sum = {sum.normal + by.normal, sum.colour + by.colour};
         }
         mesh.normals[vertex] = glm::vec3(unit_or(sum.normal, own.normal));
