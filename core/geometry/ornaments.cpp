@@ -48,6 +48,11 @@ double pointed_share(const PatchLayer& layer) {
     return smooth_step(cushion_height, spine_height, layer.style.height);
 }
 
+/// Returns how far the pieces of a layer stand on skirts: as far as they are spines, scales never.
+double skirt_share(const PatchLayer& layer) {
+    return layer.purpose == purposes::scales ? 0.0 : pointed_share(layer);
+}
+
 bool is_tuft(const PatchLayer& layer) {
     return layer.purpose == purposes::scales && layer.style.fray > 0.0;
 }
@@ -133,7 +138,7 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     const int sides = solid.columns;
     // Low pieces are cushions, tall ones spines.
     const double pointed = pointed_share(layer);
-    const double skirt = layer.purpose == purposes::scales ? 0.0 : pointed;
+    const double skirt = skirt_share(layer);
     const double height = patch.height * radius;
     solid.corners.clear();
     Random random(context.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
@@ -211,8 +216,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& conte
         }
         const glm::dvec3 fallback =
             unit_or(frame.station.direction(frame.centre, frame.normal), glm::dvec3(0.0, 1.0, 0.0));
-        solid.skirt =
-            layer.purpose == purposes::scales ? glm::dvec3(0.0) : pointed_share(layer) * fallback;
+        solid.skirt = skirt_share(layer) * fallback;
         append(mesh, solid, fallback, context.textured, radius > 0.0 || context.keep_absent);
     }
 }

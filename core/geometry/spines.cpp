@@ -151,7 +151,7 @@ void build_spine(GridSolid& solid, const SpineRoot& root, double length, double 
     const glm::dvec3 aside =
         shaggy_bend * style.shag * length * glm::dot(strays, sideways) * sideways;
     glm::dvec3 start = root.place - sunk * width * root.outwards;
-    const double stands = (least_stand + stand * (1.0 - style.droop));
+    const double stands = least_stand + stand * (1.0 - style.droop);
     const glm::dvec3 bend = root.place + length * stands * root.outwards + aside;
     const glm::dvec3 tip = bend - aside + length * hangs;
     // A straight spine begins on the way to the bend, so that it lies as the curved one does.
