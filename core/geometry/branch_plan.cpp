@@ -7,6 +7,7 @@
 
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
+#include "core/geometry/ground.h"
 #include "core/geometry/spines.h"
 #include "core/mesh/detail.h"
 
@@ -162,13 +163,15 @@ bool is_present(const BranchGraph& graph, const TubeChain& chain) {
     return graph.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
-BranchPlan branch_plan(const BranchGraph& graph, const std::vector<SpineLayer>& spines,
+BranchPlan branch_plan(const Individual& individual, const BranchGraph& graph,
                        DetailLevel level) {
     const Resolutions allowed = resolutions_at(level);
     const std::uint64_t all =
         level.lod < farthest_lod ? triangle_limit(level) : std::uint64_t{most_at_farthest};
-    const std::uint64_t hanging = spine_count(spines, spine_detail(spines, level)).triangles;
-    const std::uint64_t limit = all - std::min(hanging, all / 2);
+    const std::vector<SpineLayer>& spines = individual.spines;
+    const std::uint64_t others = spine_count(spines, spine_detail(spines, level)).triangles +
+                                 ground_count(individual.grounds, detail_of(level)).triangles;
+    const std::uint64_t limit = all - std::min(others, all / 2);
     BranchPlan plan;
     plan.chains = chains_of(graph);
     // For each node its chain, and its index there.
@@ -216,8 +219,9 @@ BranchPlan branch_plan(const BranchGraph& graph, const std::vector<SpineLayer>& 
 
 MeshCount branched_mesh_count(const Individual& individual, DetailLevel level, bool keep_absent) {
     const BranchGraph& graph = individual.branch_graph;
-    const BranchPlan plan = branch_plan(graph, individual.spines, level);
+    const BranchPlan plan = branch_plan(individual, graph, level);
     MeshCount count = plan.count;
+    count += ground_count(individual.grounds, detail_of(level), keep_absent);
     count += spine_count(individual.spines, spine_detail(individual.spines, level), keep_absent);
     if (keep_absent) return count;
     for (const TubeChain& chain : plan.chains)

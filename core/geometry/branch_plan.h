@@ -51,10 +51,10 @@ struct BranchPlan {
 /// Returns the tubes that are built at a level of detail: the finest resolution within the
 /// triangle limit that keeps enough of them; those with fewest tips are dropped first.
 ///
-/// spines  that hang from the tubes; their triangles are within the limit too
-/// cost    O(nodes log nodes)
-[[nodiscard]] BranchPlan branch_plan(const BranchGraph& graph,
-                                     const std::vector<SpineLayer>& spines, DetailLevel level);
+/// individual  of whose spines and ground the triangles are within the limit too
+/// cost        O(nodes log nodes)
+[[nodiscard]] BranchPlan branch_plan(const Individual& individual, const BranchGraph& graph,
+                                     DetailLevel level);
 
 /// Returns the sides of a tube as species of many segments draw it.
 [[nodiscard]] int tube_sides(const TubeChain& chain, const TubeDetail& detail);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/geometry/branch_plan.h"
+#include "core/geometry/ground.h"
 #include "core/geometry/joints.h"
 #include "core/geometry/ruffle.h"
 #include "core/geometry/spines.h"
@@ -163,7 +164,7 @@ class TubeBuilder {
     TubeBuilder(const Individual& individual, DetailLevel level, const SweepOptions& options)
         : graph_(deformed(individual)),
           spine_detail_(spine_detail(individual.spines, level)),
-          plan_(branch_plan(graph_, individual.spines, level)),
+          plan_(branch_plan(individual, graph_, level)),
           seed_(individual.effective.seed),
           options_(options),
           represented_(graph_.nodes.size(), 1.0),
@@ -186,6 +187,23 @@ class TubeBuilder {
             add_tangents(mesh_);
         }
         return std::move(mesh_);
+    }
+
+    // Returns the surface of all trunks below the ground, where they are one: the upper half of its
+    // depth is their side, the lower half their end.
+    [[nodiscard]] Foot foot() const {
+        double radius = 0.0;
+        for (const std::uint32_t root : graph_.roots)
+            radius = std::max(radius, graph_.foot * node(root).radius);
+        return [radius](double depth, double angle) {
+            const auto turn = sine_cosine(angle);
+            const glm::dvec3 out(turn.cosine, 0.0, turn.sine);
+            const double down = std::min(2.0 * depth, 1.0),
+                         inwards = std::max(2.0 * depth - 1.0, 0.0);
+            return FootPoint{
+                radius * ((1.0 - inwards) * out - foot_depth * down * glm::dvec3(0.0, 1.0, 0.0)),
+                unit_or((1.0 - inwards) * out - inwards * glm::dvec3(0.0, 1.0, 0.0), out)};
+        };
     }
 
     // Appends the spines of all species, which hang from the tubes that are drawn.
@@ -784,6 +802,8 @@ Mesh branched_mesh(const Individual& individual, DetailLevel level, const SweepO
     TubeBuilder builder(individual, level, options);
     Mesh mesh = builder.build();
     builder.add_hanging_spines(mesh, individual.spines);
+    add_ground(mesh, individual.grounds, builder.foot(), detail_of(level),
+               individual.effective.seed, options.textured, options.keep_absent);
     return mesh;
 }
 

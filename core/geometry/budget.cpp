@@ -55,6 +55,13 @@ bool drop_free_solids(const Individual& individual, Detail& detail) {
     return true;
 }
 
+/// Leaves out a further eighth of soil and litter; returns false when none is left.
+bool drop_ground(const Individual& individual, Detail& detail) {
+    if (individual.grounds.empty() || detail.ground <= 0.0) return false;
+    detail.ground -= 0.125;
+    return true;
+}
+
 /// Leaves out a further eighth of the patches, the smallest ones; returns false when none is left.
 bool drop_patches(Detail& detail, DetailLevel level) {
     if (level == 0 || level.lod > 1 || detail.patches <= 0.0) return false;
@@ -97,8 +104,8 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     budget.count = total();
     const std::uint64_t limit = triangle_limit(level);
     while (budget.count.triangles > limit &&
-           (drop_surplus(budget.ornaments) || coarsen(budget.ornaments, level) ||
-            (solids && coarsen(individual, budget.blades)) ||
+           (drop_surplus(budget.ornaments) || drop_ground(individual, budget.ornaments) ||
+            coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
             (!solids && drop_patches(budget.ornaments, level)) ||
             drop_free_solids(individual, budget.ornaments)))
         budget.count = total();

@@ -30,7 +30,7 @@ struct Budget {
 
 /// Returns the budget of an individual at a level of detail. A set that exceeds `most_triangles` is
 /// coarsened step by step, least visible detail first: the surplus of granules and hairs, which a
-/// level beyond 0 never has; corners and rings of patches, rows of
+/// level beyond 0 never has; soil and litter at the foot; corners and rings of patches, rows of
 /// shells, short blades between others, cross veins, rows of blades; at the next level the smaller
 /// patches themselves, which are painted then; at last, at every level, hanging spines, and then
 /// peridioles and meshes of nets. Between LOD 0 and 1 the hymenium is painted only if the

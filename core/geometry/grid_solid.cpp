@@ -11,8 +11,11 @@ namespace sporeprint {
 
 namespace {
 
-const Chart& chart_of(const GridSolid& solid) {
-    return swept_charts[static_cast<std::size_t>(solid.part)];
+/// Returns the texture coordinate at shares of the way round a solid and up from its base.
+TexturePoint point_of(const GridSolid& solid, double round, double up) {
+    const auto& [from_u, to_u, from_v, to_v] = solid.window;
+    return strip_point(swept_charts[index_of(solid.part)], from_u + round * (to_u - from_u),
+                       from_v + up * (to_v - from_v));
 }
 
 /// Appends the triangles of a solid's grid, whose vertices begin at `first`, and computes its
@@ -73,8 +76,8 @@ void append_grid_vertices(Mesh& mesh, const GridSolid& solid, const glm::dvec3& 
             const double along =
                 solid.loops ? std::min(i, solid.rows - 1 - i) / (0.5 * solid.rows - 1.0 + 1e-9)
                             : static_cast<double>(i) / (solid.rows - 1);
-            const TexturePoint uv = strip_point(
-                chart_of(solid), static_cast<double>(j) / solid.columns, std::min(along, 1.0));
+            const TexturePoint uv =
+                point_of(solid, static_cast<double>(j) / solid.columns, std::min(along, 1.0));
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
             const int ahead = j < solid.columns ? j + 1 : 1,
                       behind = j > 0 ? j - 1 : solid.columns - 1;
@@ -102,8 +105,7 @@ void append_base(Mesh& mesh, const GridSolid& solid, const glm::dvec3& fallback,
         mesh.positions.emplace_back(p[at(j)]);
         mesh.normals.emplace_back(below);
         if (!textured) continue;
-        const TexturePoint uv =
-            strip_point(chart_of(solid), static_cast<double>(j) / solid.columns, 0.0);
+        const TexturePoint uv = point_of(solid, static_cast<double>(j) / solid.columns, 0.0);
         mesh.texture_coordinates.emplace_back(uv.u, uv.v);
         mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(1)] - p[at(0)])), 1.0F);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -46,6 +47,8 @@ struct GridSolid : SolidGrid {
     /// Normal of the surface that a pointed solid rises from, times the share of it in the normals
     /// of its first row: with length 1 the skin passes into it without an edge in the shading.
     glm::dvec3 skirt = glm::dvec3(0.0);
+    /// The piece of the strip that paints it: from and to along u and v, 0..1.
+    std::array<double, 4> window = {0.0, 1.0, 0.0, 1.0};
 };
 
 /// Appends a solid, painted by the strip of its part: round it along the columns, from its base to

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/grid_solid.h"
+#include "core/geometry/ground.h"
 #include "core/geometry/receptacle.h"
 #include "core/geometry/shells.h"
 #include "core/geometry/spines.h"
@@ -228,6 +229,7 @@ MeshCount ornament_count(const Individual& individual, const OrnamentDetail& det
     sum += spine_count(individual.spines, detail);
     sum += peridiole_count(individual, detail);
     sum += receptacle_count(individual, detail);
+    sum += ground_count(individual.grounds, detail);
     for (const PatchLayer& layer : individual.layers)
         sum += patch_grid(detail).count().times(piece_count(layer, detail));
     return sum;
@@ -240,6 +242,7 @@ void add_ornaments(Mesh& mesh, const Individual& individual, const OrnamentConte
     add_spines(mesh, individual, context);
     add_peridioles(mesh, individual, context);
     add_receptacles(mesh, individual, context);
+    add_ground(mesh, individual, context);
 }
 
 }  // namespace sporeprint

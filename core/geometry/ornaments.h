@@ -10,7 +10,7 @@ namespace sporeprint {
 [[nodiscard]] MeshCount ornament_count(const Individual& individual, const OrnamentDetail& detail);
 
 /// Appends warts, scales and bulb scales, each a closed solid sunk a little into the surface; then
-/// the ring and the sac, spines, peridioles and receptacles. A piece of size 0 is a point on the
+/// the ring and the sac, spines, peridioles and receptacles, and the ground. A piece of size 0 is a point on the
 /// surface, with unit normals.
 void add_ornaments(Mesh& mesh, const Individual& individual, const OrnamentContext& context);
 

@@ -161,7 +161,7 @@ std::vector<CollisionShape> collision_shapes(const Individual& individual) {
     };
     if (individual.is_branched()) return fitted("body", mesh.indices);
     const std::vector<std::uint32_t> body =
-        triangles_of(mesh, [](Part part) { return part != Part::veil; });
+        triangles_of(mesh, [](Part part) { return part != Part::veil && part != Part::ground; });
     std::vector<CollisionShape> whole = fitted("body", body);
     if (const std::optional<WoodPiece> piece = wood_behind(individual)) {
         const Mesh wood = wood_mesh(*piece, last_lod, false);
@@ -171,9 +171,10 @@ std::vector<CollisionShape> collision_shapes(const Individual& individual) {
     if (whole.size() == 1 || individual.grows_from_wall()) return whole;
     std::vector<CollisionShape> shapes =
         fitted("stem", triangles_of(mesh, [](Part part) { return part == Part::stem; }));
-    std::vector<CollisionShape> cap = fitted("cap", triangles_of(mesh, [](Part part) {
-                                                 return part != Part::veil && part != Part::stem;
-                                             }));
+    std::vector<CollisionShape> cap =
+        fitted("cap", triangles_of(mesh, [](Part part) {
+                   return part != Part::veil && part != Part::stem && part != Part::ground;
+               }));
     if (shapes.empty() || cap.empty()) return whole;
     std::move(cap.begin(), cap.end(), std::back_inserter(shapes));
     return shapes;

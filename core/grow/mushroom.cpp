@@ -191,7 +191,7 @@ double outline_error(const Individual& individual, DetailLevel level, double rad
         return radius * (inscribed_error(detail.columns) + inscribed_error(4 * detail.cap_rings));
     }
     const BranchGraph& graph = individual.branch_graph;
-    const BranchPlan plan = branch_plan(graph, individual.spines, level);
+    const BranchPlan plan = branch_plan(individual, graph, level);
     double tips = 0.0;
     for (const std::uint32_t root : graph.roots) tips += graph.nodes[root].tips;
     // Tubes that are left out leave gaps: n tips in a disc are about radius / sqrt(n) apart.

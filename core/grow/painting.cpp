@@ -214,6 +214,9 @@ void set_painting(const MushroomParams& params, const SpeciesShare& part, const 
         painting.surface.stem.soil = painting.surface.stem.mycelium = 0.0;
         // What shows in no image is reset, so that it causes no other key.
         painting.surface.stem.soil_colour = StemSurface{}.soil_colour;
+    } else if (!part.ground.empty()) {
+        painting.ground = {part.ground.litter.colour, part.ground.litter.aged,
+                           part.ground.strands.colour};
     }
     painting.hymenium = model.hymenium;
     // Parameters that shape blades but show in no image are reset, so that they cause no other key.

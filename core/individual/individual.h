@@ -20,6 +20,7 @@ struct SpeciesShare {
     std::string id;
     double weight = 1.0;  ///< weights of an individual sum to 1
     Model model;          ///< of the species at this age, overrides applied: the model to paint
+    GroundStyle ground;   ///< of the species
     CellRows cells;       ///< layout of its spines in rows, the same at all ages
 };
 
@@ -55,6 +56,14 @@ struct ReceptacleLayer {
     double amount = 0.0;    ///< how far it has unfolded: 0..1
     double weight = 1.0;    ///< of the species in the mix: factor on its size
     bool operator==(const ReceptacleLayer&) const = default;
+};
+
+/// What one species brings along of its ground.
+struct GroundLayer {
+    GroundStyle style;         ///< metres
+    std::uint32_t stream = 0;  ///< of its species in random streams
+    double weight = 1.0;       ///< of the species in the mix: factor on all sizes
+    bool operator==(const GroundLayer&) const = default;
 };
 
 /// Damage by weathering for geometry: amounts times the weight of the species that can have them,
@@ -103,7 +112,8 @@ struct Individual {
     std::vector<SpineLayer> spines;
     std::vector<PeridioleLayer> peridioles;
     std::vector<ReceptacleLayer> receptacles;
-    double waves = 0.0;  ///< of the margin, from the species with a margin only
+    std::vector<GroundLayer> grounds;  ///< none for base=clean
+    double waves = 0.0;                ///< of the margin, from the species with a margin only
     DamageAmounts damage;
     GillLayout gill_layout;
     /// The gills and ridges of the mesh lie on gill_layout.blades * 2^blade_tiers evenly spaced

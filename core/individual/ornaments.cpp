@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/math/purposes.h"
+#include "core/math/random.h"
 #include "core/params/blend.h"
 
 namespace sporeprint {
@@ -124,6 +125,20 @@ std::vector<ReceptacleLayer> receptacles_of(const std::vector<Source>& sources, 
               &ReceptacleStyle::arm})
             style.*length *= size / source.size;
         layers.push_back({style, source.now.ornaments.receptacle, source.weight});
+    }
+    return layers;
+}
+
+std::vector<GroundLayer> grounds_of(const std::vector<Source>& sources, double size) {
+    std::vector<GroundLayer> layers;
+    for (const Source& source : sources) {
+        GroundStyle style = source.ground;
+        if (style.empty()) continue;
+        const double scale = source.is_branched() ? size : size / source.size;
+        for (double* const length : {&style.soil.reach, &style.soil.rise, &style.soil.size,
+                                     &style.litter.length, &style.strands.length})
+            *length *= scale;
+        layers.push_back({style, stream_of(source.id), source.weight});
     }
     return layers;
 }

@@ -32,4 +32,9 @@ namespace sporeprint {
 [[nodiscard]] std::vector<ReceptacleLayer> receptacles_of(const std::vector<Source>& sources,
                                                           double size);
 
+/// Returns the ground of each species that brings some along, in metres.
+///
+/// size  as for spines_of()
+[[nodiscard]] std::vector<GroundLayer> grounds_of(const std::vector<Source>& sources, double size);
+
 }  // namespace sporeprint

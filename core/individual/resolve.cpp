@@ -371,6 +371,7 @@ void resolve_branched(Individual& individual, const MushroomSpec& spec,
     individual.branch_graph = branch_graph_of(shares, own, bites, requested.seed);
     individual.stem_top = individual.branch_graph.trunk;
     individual.spines = spines_of(sources, own.size);
+    if (requested.base == Base::natural) individual.grounds = grounds_of(sources, own.size);
     if (spec.model) return;
     // Variation bends an individual only as far as its own segments permit.
     DeformationOf<Plain>& deformation = individual.model.deformation;
@@ -393,6 +394,7 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
     individual.spines = spines_of(sources, individual.size);
     individual.peridioles = peridioles_of(sources, individual.size);
     individual.receptacles = receptacles_of(sources, individual.size);
+    if (requested.base == Base::natural) individual.grounds = grounds_of(sources, individual.size);
     for (const Source& source : sources) {
         individual.has_ring = individual.has_ring || source.has_ring();
         individual.has_sac = individual.has_sac || source.has_sac();
@@ -531,7 +533,8 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
     resolve_substrate(individual, sources);
     for (Source& source : sources) {
         const CellRows cells = cells_of(source);
-        individual.parts.push_back({source.id, source.weight, std::move(source.now), cells});
+        individual.parts.push_back(
+            {source.id, source.weight, std::move(source.now), source.ground, cells});
     }
     return individual;
 }

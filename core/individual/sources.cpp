@@ -52,6 +52,7 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     source.weight = weight;
     source.hash = entry.hash;
     source.spread = species.spread;
+    source.ground = species.ground;
     source.wood = wood_of(species.facts);
     source.growth = growth_weights(species.stages, age);
     source.mature = growth_weights(species.stages, mature_age);

@@ -25,6 +25,7 @@ struct Source {
     double weight = 1.0;
     std::uint64_t hash = 0;
     Spread spread{0, 0, 0, 0, 0, 0, 0, 0, 0};
+    GroundStyle ground;  ///< a custom Model has none
     std::vector<const Model*> stages;
     std::vector<double> ages;    ///< one per stage
     std::vector<double> growth;  ///< growth weight of each stage at this age; at most two are not 0

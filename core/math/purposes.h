@@ -80,6 +80,8 @@ enum Purpose : std::uint32_t {
     spines = 139,          ///< how each spine hangs
     net_lumps = 138,       ///< how spongy the arms round each mesh are
     bracket_base = 140,    ///< how unevenly a bracket meets its wood
+    ground = 141,          ///< soil, litter and strands at a foot
+    ground_paint = 144,
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -91,6 +93,7 @@ enum Purpose : std::uint32_t {
         case painted_damage:
             return 10;
         case corners:
+        case ground:
             return 3;
         case variation:
         case axis_angles:
@@ -160,6 +163,7 @@ enum Purpose : std::uint32_t {
         case net_lumps:
         case bracket_base:
         case spines:
+        case ground_paint:
             return 1;
     }
     return 0;

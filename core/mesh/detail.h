@@ -59,6 +59,9 @@ struct Detail {
         /// share of a layer's warts or scales that is built, largest first; the others are only
         /// painted
         1.0;
+    double ground =
+        /// share of the soil and litter at a foot that a level builds, the largest pieces first
+        1.0;
     double free_solids =
         /// share of the hanging spines, and of the meshes of a receptacle, that a level builds
         1.0;

@@ -2,6 +2,7 @@
 // core/atlas/species.
 #pragma once
 
+#include "core/model/ground.h"
 #include "core/model/model.h"
 
 namespace sporeprint {
@@ -213,6 +214,7 @@ struct Species {
     Text<48> id;
     Facts facts;
     Spread spread;
+    GroundStyle ground;
     std::vector<Stage> stages;
 
     static constexpr void fields(auto visit) {
@@ -221,6 +223,8 @@ struct Species {
                                  .doc = "Name in addresses: lower-case letters and underscores."});
         visit(&Species::facts, Info{.name = "facts", .doc = "What is recorded."});
         visit(&Species::spread, Info{.name = "spread", .doc = "How far individuals vary."});
+        visit(&Species::ground,
+              Info{.name = "ground", .doc = "Soil, litter and mycelium at the foot."});
         visit(&Species::stages, Info{.name = "stages",
                                      .most = 8,
                                      .doc = "Growth stages by age; every stage has as many control "

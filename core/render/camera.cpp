@@ -50,7 +50,7 @@ glm::dvec2 angles_of(const PictureParams& params, int frame) {
 }
 
 std::vector<Camera> fitted_cameras(const DrawList& list, std::span<const CameraAxes> axes,
-                                   double aspect) {
+                                   double aspect, float lowest) {
     const auto [sine, cosine] = sine_cosine(radians(half_angle_deg));
     const double shorter = sine / cosine;
     const double tangent_x = shorter * std::max(aspect, 1.0);
@@ -63,7 +63,8 @@ std::vector<Camera> fitted_cameras(const DrawList& list, std::span<const CameraA
     double right = -1e30, left = -1e30, upper = -1e30, lower = -1e30;
     for (const Draw& draw : list.draws)
         for (const glm::vec3& at : draw.mesh->positions) {
-            const glm::vec3 point = draw.placement.point(at);
+            glm::vec3 point = draw.placement.point(at);
+            point.y = std::max(point.y, lowest);
             for (const CameraAxes& own : axes) {
                 const auto x = static_cast<double>(glm::dot(point, own.right)),
                            y = static_cast<double>(glm::dot(point, own.up)),

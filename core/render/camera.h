@@ -53,7 +53,9 @@ struct Camera {
 /// nearest from which all of the scene is in every image, with a margin.
 ///
 /// aspect  width by height of the images
+/// lowest  height that is seen: what lies lower is under the ground, and hidden
 [[nodiscard]] std::vector<Camera> fitted_cameras(const DrawList& list,
-                                                 std::span<const CameraAxes> axes, double aspect);
+                                                 std::span<const CameraAxes> axes, double aspect,
+                                                 float lowest);
 
 }  // namespace sporeprint::render

@@ -497,11 +497,12 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
     RgbaImage image{params.width * columns, params.height * rows, {}};
     image.rgba.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height) * 4);
-    const std::vector<render::Camera> cameras = render::fitted_cameras(
-        list, axes, static_cast<double>(params.width) / static_cast<double>(params.height));
-    const float height = list.box.max.y - list.box.min.y;
+    // Of what stands on the ground, most is above it.
     const bool has_ground =
-        scene.stands_on_ground && params.view != View::below && list.box.min.y > -0.4F * height;
+        scene.stands_on_ground && params.view != View::below && list.box.min.y > -list.box.max.y;
+    const std::vector<render::Camera> cameras = render::fitted_cameras(
+        list, axes, static_cast<double>(params.width) / static_cast<double>(params.height),
+        has_ground ? 0.0F : list.box.min.y);
     const SrgbTable& srgb = srgb_table();
     for (int frame = 0; frame < columns * rows; ++frame)
         render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,

@@ -18,10 +18,10 @@ struct Chart {
     double inset = 0.03;
 };
 
-enum class Part { cap, hymenium, stem, veil, blade, flesh };
-inline constexpr std::size_t part_count = 6;
-inline constexpr std::array<Part, part_count> all_parts = {Part::cap,  Part::hymenium, Part::stem,
-                                                           Part::veil, Part::blade,    Part::flesh};
+enum class Part { cap, hymenium, stem, veil, blade, flesh, ground };
+inline constexpr std::size_t part_count = 7;
+inline constexpr std::array<Part, part_count> all_parts = {
+    Part::cap, Part::hymenium, Part::stem, Part::veil, Part::blade, Part::flesh, Part::ground};
 
 /// Returns the position of a part in tables of all parts.
 [[nodiscard]] constexpr std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
@@ -45,12 +45,15 @@ inline constexpr std::array<Part, part_count> all_parts = {Part::cap,  Part::hym
 ///           at the base, 1 at the edge
 /// flesh     strip, flesh exposed by a tear: u along the tear; v = 0 under the cuticle, 1 at its
 ///           deepest
+/// ground    strip of three bands across, see `ground_bands`: u round a solid, v from its base to
+///           its tip
 inline constexpr std::array<Chart, part_count> swept_charts = {{
     {ChartMap::disc, 0.0, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::disc, 0.5, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::strip, 0.0, 0.5, 1.0, 0.375, 0.03},
-    {ChartMap::strip, 0.0, 0.875, 0.5, 0.125, 0.12},
-    {ChartMap::strip, 0.5, 0.875, 0.25, 0.125, 0.12},
+    {ChartMap::strip, 0.0, 0.875, 0.375, 0.125, 0.12},
+    {ChartMap::strip, 0.375, 0.875, 0.25, 0.125, 0.12},
+    {ChartMap::strip, 0.625, 0.875, 0.125, 0.125, 0.12},
     {ChartMap::strip, 0.75, 0.875, 0.25, 0.125, 0.12},
 }};
 
@@ -71,6 +74,13 @@ static_assert([] {
     }
     return Part::cap;
 }
+
+/// The bands of the ground's strip, across it: soil, litter, and strands of mycelium.
+struct GroundBand {
+    double from, to;
+};
+inline constexpr std::array<GroundBand, 3> ground_bands = {
+    {{0.01, 0.47}, {0.53, 0.78}, {0.84, 0.99}}};
 
 /// Radius of the stem's edge in the hymenium's disc.
 inline constexpr double hymenium_inner_share = 0.15;

@@ -62,6 +62,7 @@ PaintPlan paint_plan(const PaintParams& params, const ImageRotations& turns) {
     plan.veil = veil_plan(params, plan.frames[3]);
     plan.blade = blade_plan(params, plan.frames[4]);
     plan.flesh = flesh_plan(params, plan.frames[5]);
+    plan.ground = ground_plan(params, plan.frames[6]);
     plan.fade = single(params.weathering.fade);
     plan.wetness = single(params.weathering.wetness);
     for (std::size_t i = 0; i < 3; ++i) {

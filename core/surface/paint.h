@@ -6,6 +6,7 @@
 #include "core/individual/mushroom_spec.h"
 #include "core/individual/patches.h"
 #include "core/individual/relief.h"
+#include "core/model/ground.h"
 #include "core/surface/metrics.h"
 
 namespace sporeprint {
@@ -22,6 +23,19 @@ struct PaintedOrnaments {
     bool operator==(const PaintedOrnaments&) const = default;
 };
 
+/// The colours of what a mushroom brings along of its ground.
+struct PaintedGround {
+    Colour litter = LitterStyle{}.colour, aged = LitterStyle{}.aged, strands = StrandStyle{}.colour;
+
+    static constexpr void fields(auto visit) {
+        using G = PaintedGround;
+        visit(&G::litter, Info{.name = "litter", .doc = "Freshest pieces of litter."});
+        visit(&G::aged, Info{.name = "aged", .doc = "Oldest pieces of litter."});
+        visit(&G::strands, Info{.name = "strands", .doc = "Strands of mycelium."});
+    }
+    bool operator==(const PaintedGround&) const = default;
+};
+
 /// Everything that painting depends on. Equal canonical text means equal images, so the text is the
 /// key of the image cache.
 struct PaintParams {
@@ -30,6 +44,7 @@ struct PaintParams {
     int side = 1024;
     SurfaceMetrics metrics;
     Surface surface;
+    PaintedGround ground;
     HymeniumOf<Plain> hymenium;
     int gill_layout = 0;
     CellRows cells;
@@ -57,6 +72,7 @@ struct PaintParams {
                              .doc = "Side of the square atlas, a power of two."});
         visit(&P::metrics, Info{.name = "metrics", .doc = "Lengths of the shape."});
         visit(&P::surface, Info{.name = "surface", .doc = "What is painted."});
+        visit(&P::ground, Info{.name = "ground", .doc = "Colours of the ground at the foot."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
         visit(&P::gill_layout,
               Info{.name = "comb",

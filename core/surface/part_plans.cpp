@@ -415,6 +415,21 @@ FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
+GroundPlan ground_plan(const PaintParams& params, const Frame& frame) {
+    GroundPlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, purposes::ground_paint);
+    plan.texel_along = single(1.0 / (share * frame.width));
+    plan.texel_across = single(1.0 / (share * frame.height));
+    for (std::size_t i = 0; i < plan.shown.size(); ++i)
+        plan.shown[i] = resolvable(share * frame.width / ground_cells[i]);
+    plan.soil = light_of(params.surface.stem.soil_colour);
+    plan.litter = light_of(params.ground.litter);
+    plan.aged = light_of(params.ground.aged);
+    plan.strands = light_of(params.ground.strands);
+    return plan;
+}
+
 namespace {
 
 /// Heights of a style, in radii, from which its pieces leave footprints, and fully do: those of the

@@ -25,6 +25,7 @@ namespace sporeprint {
 [[nodiscard]] VeilPlan veil_plan(const PaintParams& params, const Frame& frame);
 [[nodiscard]] BladePlan blade_plan(const PaintParams& params, const Frame& frame);
 [[nodiscard]] FleshPlan flesh_plan(const PaintParams& params, const Frame& frame);
+[[nodiscard]] GroundPlan ground_plan(const PaintParams& params, const Frame& frame);
 
 /// Returns N seeds of one purpose.
 template <std::size_t N>

@@ -29,6 +29,7 @@ enum StemField { stem_broad, stem_middle, stem_bump, stem_fibre, stem_furrow };
 enum VeilField { veil_thread, veil_cloud };
 enum BladeField { blade_cloud, blade_uneven };
 enum FleshField { flesh_fibre, flesh_cloud };
+enum GroundField { ground_cloud, ground_age };
 inline constexpr int most_fields = 9;
 
 /// A colour in linear light.
@@ -280,8 +281,18 @@ struct FleshPlan {
     float roughness = 0.85F;
 };
 
+/// Soil, litter and strands; lengths are relative to that of its strip.
+struct GroundPlan {
+    std::array<std::uint32_t, 4> seed{};
+    float texel_along = 0.0F, texel_across = 0.0F;
+    std::array<float, 2> shown{};  ///< of fibres and grains, 0 where they are smaller than texels
+    Light soil, litter, aged, strands;
+};
+
 /// Width of a tear over its length, as its chart assumes.
 inline constexpr double flesh_width = 0.4;
+/// Fibres of litter and grains of soil round a strip.
+inline constexpr std::array<int, 2> ground_cells = {40, 84};
 inline constexpr float blade_grain = 72.0F;  ///< lines across a blade
 inline constexpr std::array<float, 3> flesh_bump_frequency = {11.0F, 26.0F, 58.0F};
 
@@ -319,6 +330,7 @@ struct PaintPlan {
     VeilPlan veil;
     BladePlan blade;
     FleshPlan flesh;
+    GroundPlan ground;
     float fade = 0.0F;
     float wetness = 0.0F;
     int disc_step = 1;   ///< texels between the samples of a disc's fields: 1 or 2

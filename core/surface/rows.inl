@@ -14,6 +14,7 @@
 
 #include "core/surface/cap.inl"
 #include "core/surface/damage.inl"
+#include "core/surface/ground.inl"
 #include "core/surface/hymenium.inl"
 #include "core/surface/stem.inl"
 #include "core/surface/tissue.inl"
@@ -299,6 +300,15 @@ struct FleshKernel : FlatStrip {
         return flesh_texel(all.flesh, along, across, fields);
     }
 };
+struct GroundKernel : FlatStrip {
+    static constexpr Part part = Part::ground;
+    static HWY_INLINE void fields(const PaintPlan& all, VF along, VF across, VF* fields) {
+        ground_fields(all.ground, along, across, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, VF along, VF across, const VF* fields) {
+        return ground_texel(all.ground, along, across, fields);
+    }
+};
 
 // Samples the fields of a disc along one row, at every disc_step-th texel.
 template <class Kernel>
@@ -573,7 +583,8 @@ void show_collected(const PaintPlan& plan, Part part, int y, const DamageRow& pl
 // Adds ink and dust to the texels of a row.
 void add_ink_and_dust(const PaintPlan& plan, Part part, int y, Row& row) {
     const DamagePlan& damage = plan.damage;
-    const bool inked = part != Part::stem && part != Part::veil && damage.melted > 0.0F;
+    const bool inked =
+        part != Part::stem && part != Part::veil && part != Part::ground && damage.melted > 0.0F;
     const bool dusted =
         (part == Part::cap || part == Part::stem || part == Part::veil) && damage.dust > 0.0F;
     if (!inked && !dusted) return;
@@ -699,14 +710,15 @@ constexpr bool are_all_parts() {
     std::size_t place = 0;
     return (... && (index_of(Kernels::part) == place++)) && place == part_count;
 }
-static_assert(
-    are_all_parts<CapKernel, HymeniumKernel, StemKernel, VeilKernel, BladeKernel, FleshKernel>());
+static_assert(are_all_parts<CapKernel, HymeniumKernel, StemKernel, VeilKernel, BladeKernel,
+                            FleshKernel, GroundKernel>());
 
 /// Painters of one row, by part.
 using RowPainter = void (*)(const PaintPlan&, int, Row&, RowBuffers&);
 inline constexpr RowPainter row_painters[part_count] = {
-    paint_disc_row<CapKernel>,   paint_disc_row<HymeniumKernel>, paint_strip_row<StemKernel>,
-    paint_strip_row<VeilKernel>, paint_strip_row<BladeKernel>,   paint_strip_row<FleshKernel>};
+    paint_disc_row<CapKernel>,    paint_disc_row<HymeniumKernel>, paint_strip_row<StemKernel>,
+    paint_strip_row<VeilKernel>,  paint_strip_row<BladeKernel>,   paint_strip_row<FleshKernel>,
+    paint_strip_row<GroundKernel>};
 
 // Paints the texels of one row; y may lie one row outside of the chart.
 void paint_row(const PaintPlan& plan, Part part, int y, Row& row, RowBuffers& buffers) {
@@ -820,13 +832,15 @@ HWY_INLINE SlopeScale slope_scale(const PaintPlan& plan, Part part) {
                                        plan.stem.texel_along,
                                        plan.veil.texel,
                                        plan.blade.texel_along,
-                                       plan.flesh.texel_along};
+                                       plan.flesh.texel_along,
+                                       plan.ground.texel_along};
     const float steps_y[part_count] = {0.0F,
                                        0.0F,
                                        plan.stem.texel_round,
                                        plan.veil.texel,
                                        plan.blade.texel_across,
-                                       plan.flesh.texel_across};
+                                       plan.flesh.texel_across,
+                                       plan.ground.texel_across};
     return {set(film * (0.5F / steps_x[index_of(part)])),
             set(film * (0.5F / steps_y[index_of(part)]))};
 }
@@ -848,7 +862,7 @@ void resolve_row(const PaintPlan& plan, Part part, int y, const Row& above, cons
     const Floats f;
     const Frame& frame = plan.frames[index_of(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
-    const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F};
+    const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F, 0.7F};
     const bool on_disc = is_disc(part);
     const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
     const SlopeScale scale = slope_scale(plan, part);

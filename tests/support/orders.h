@@ -57,7 +57,8 @@ inline std::vector<std::string> branched_ids() {
     return ids;
 }
 
-/// Returns a request for one species, without images and without wood behind brackets.
+/// Returns a request for one species, without images, without wood behind brackets and without
+/// ground at its foot.
 inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
                              int lod = 0) {
     MushroomSpec order;
@@ -67,6 +68,13 @@ inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint3
     order.params.lod = lod;
     order.params.textures = Textures::none;
     order.params.substrate = Substrate::none;
+    order.params.base = Base::clean;
+    return order;
+}
+
+/// Returns the same request with the ground of the species at its foot.
+inline MushroomSpec on_ground(MushroomSpec order) {
+    order.params.base = Base::natural;
     return order;
 }
 

@@ -44,9 +44,23 @@ TEST(Camera, ItIsAsNearAsTheMarginAllows) {
     for (const double aspect : {0.2, 1.0, 3.0})
         for (const double elevation : {-32.0, 3.0, 90.0}) {
             const CameraAxes axes = camera_axes(40, elevation);
-            const Camera camera = fitted_cameras(list, {&axes, 1}, aspect).front();
+            const Camera camera = fitted_cameras(list, {&axes, 1}, aspect, -1.0F).front();
             EXPECT_NEAR(reach(list, camera), 0.9, 1e-3) << aspect << ' ' << elevation;
         }
+}
+
+// A ball sunk to its middle is as large in the picture as the half of it that is seen.
+TEST(Camera, WhatIsUnderTheGroundTakesNoRoom) {
+    const Mesh sunk = ball(0.05F, {0.0F, 0.0F, 0.0F});
+    Mesh half = sunk;
+    for (glm::vec3& at : half.positions) at.y = std::max(at.y, 0.0F);
+    const GlbScene scene = scene_of(sunk), upper = scene_of(half);
+    const DrawList list = draw_list(scene, in_turn), upper_list = draw_list(upper, in_turn);
+    const CameraAxes axes = camera_axes(30, 18);
+    const Camera camera = fitted_cameras(list, {&axes, 1}, 1.0, 0.0F).front(),
+                 expected = fitted_cameras(upper_list, {&axes, 1}, 1.0, -1.0F).front();
+    EXPECT_NEAR(glm::length(camera.position - expected.position), 0.0F, 1e-7F);
+    EXPECT_GT(reach(list, camera), 0.9 + 1e-3);
 }
 
 TEST(Camera, ViewsOfATurntableHaveOneScale) {
@@ -62,7 +76,7 @@ TEST(Camera, ViewsOfATurntableHaveOneScale) {
         axes.push_back(camera_axes(angles.x, angles.y));
     }
     double most = 0.0;
-    const std::vector<Camera> cameras = fitted_cameras(list, axes, 1.0);
+    const std::vector<Camera> cameras = fitted_cameras(list, axes, 1.0, -1.0F);
     for (const Camera& camera : cameras) {
         most = std::max(most, reach(list, camera));
         // The axis of the turntable is that of the product.

@@ -1,0 +1,498 @@
+#include "core/geometry/ground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/geometry/grid_solid.h"
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+
+namespace sporeprint {
+
+namespace {
+
+// No source or measurement is recorded for the values below, unless one is named.
+
+constexpr double golden_angle = 2.399963229728653;
+constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
+
+/// The clod by its rows, from inside the stem over the ground and down to its lowest point. Where the
+/// foot is followed: its depth; how far off it, in reaches of the soil; height, in rises of the soil
+/// and in reaches; how far its corners stray.
+struct ClodRow {
+    double depth, off, rise, drop, stray;
+};
+constexpr std::array<ClodRow, 8> clod_rows = {{{0.0, -0.5, 1.05, 0.0, 0.0},
+                                               {0.0, 0.02, 1.0, 0.0, 0.35},
+                                               {0.0, 0.45, 0.45, 0.0, 0.55},
+                                               {0.0, 1.0, 0.0, -0.12, 0.6},
+                                               {0.3, 0.8, 0.0, -0.15, 0.5},
+                                               {0.6, 0.7, 0.0, -0.1, 0.5},
+                                               {0.85, 0.55, 0.0, -0.1, 0.4},
+                                               {1.0, 0.0, 0.0, -0.5, 0.0}}};
+
+/// How far single corners of the clod stray, in reaches.
+constexpr double clod_grain = 0.14;
+
+/// Place on the clod, 0..1 over its rows, of the stem, of the edge and of the end of what lumps
+/// cover; share of the lumps above the edge.
+constexpr double at_stem = 1.0 / 7.0, at_edge = 3.0 / 7.0, at_end = 6.7 / 7.0;
+constexpr double lumps_above = 0.6;
+
+/// Waves round the clod, and their parts of its unevenness.
+constexpr std::array<int, 5> clod_waves = {2, 3, 5, 8, 11};
+constexpr std::array<double, 5> clod_parts = {0.34, 0.3, 0.24, 0.2, 0.16};
+
+/// Weight of a species from which its clod has grown out of the foot's lowest point.
+constexpr double grown_weight = 0.15;
+
+/// Profile of a lump: height along its normal and radius, in its own radii, from the base, which is
+/// sunk, to the tip; how far its corners stray, how flat and how long lumps are.
+constexpr std::array<glm::dvec2, 4> lump_profile = {
+    {{-0.45, 0.9}, {0.05, 1.05}, {0.4, 0.75}, {0.6, 0.0}}};
+constexpr double lump_stray = 0.30, lump_rise = 0.16, least_flatness = 0.6, most_flatness = 1.1,
+                 longest_lump = 1.7;
+
+/// Sizes of lumps fall from the first, which all levels build, to this share, by this power of their
+/// number.
+constexpr double least_lump = 0.2, lump_power = 2.2;
+
+/// How a kind of litter is shaped and lies.
+struct PieceForm {
+    std::array<double, 5> widths;    ///< half, along it, in shares of the largest
+    double width, thickness;         ///< half, in its lengths
+    double least_stand, most_stand;  ///< angle above the ground, degrees
+    double bend;                     ///< of its tip, in its lengths: out, or up if it lies
+    double leaning;                  ///< share of pieces that lean on the stem
+    double sunk;                     ///< share of its length below the ground
+};
+
+constexpr PieceForm form_of(LitterKind kind) {
+    switch (kind) {
+        case LitterKind::leaves:
+            return {{0.16, 0.8, 1.0, 0.66, 0.0}, 0.27, 0.013, -4.0, 14.0, 0.3, 0.25, 0.0};
+        case LitterKind::needles:
+            return {{0.7, 1.0, 1.0, 0.9, 0.0}, 0.03, 0.02, -5.0, 12.0, 0.06, 0.3, 0.0};
+        case LitterKind::grass:
+            return {{0.8, 1.0, 0.85, 0.55, 0.0}, 0.035, 0.008, 48.0, 84.0, 0.45, 0.0, 0.08};
+        case LitterKind::moss:
+            return {{0.5, 1.0, 0.9, 0.6, 0.0}, 0.105, 0.095, 42.0, 88.0, 0.3, 0.0, 0.15};
+        case LitterKind::chips:
+            return {{0.8, 1.0, 0.9, 0.8, 0.0}, 0.17, 0.09, -6.0, 12.0, 0.02, 0.15, 0.0};
+    }
+    return {};
+}
+
+/// How high litter lies on the lumps of the soil, in sizes of the largest.
+constexpr double on_lumps = 0.4;
+
+/// Half the width of a strand in its lengths, along it; how far it winds.
+constexpr std::array<double, 5> strand_widths = {1.0, 0.8, 0.62, 0.45, 0.0};
+constexpr double strand_width = 0.03, strand_wind = 0.3;
+
+/// Resolution of whole levels by their columns: the grids of the clod, of a lump and of a rod, empty
+/// where there is none, and the shares of the lumps and strands, and of the litter, that are built.
+struct Resolution {
+    int least_columns;
+    SolidGrid clod, lump, rod;
+    double lumps, litter;
+};
+constexpr std::array<Resolution, 5> resolutions = {
+    {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, 1.0, 1.0},
+     {28, {8, 16, false}, {3, 4, false}, {4, 3, false}, 0.25, 0.8},
+     {12, {5, 8, false}, {}, {3, 3, false}, 0.0, 0.5},
+     {8, {4, 6, false}, {}, {}, 0.0, 0.0},
+     {0, {}, {}, {}, 0.0, 0.0}}};
+
+int built(int count, double share, const Detail& detail) {
+    return static_cast<int>(std::ceil(detail.ground * share * count));
+}
+
+/// The pieces that a level builds of one style.
+struct Built {
+    int lumps = 0, pieces = 0, strands = 0;
+};
+
+Built built_of(const GroundStyle& style, const Detail& detail) {
+    const Resolution& resolution = by_columns(resolutions, detail);
+    return {built(style.soil.lumps, resolution.lumps, detail),
+            built(style.litter.pieces, resolution.litter, detail),
+            built(style.strands.count, resolution.lumps, detail)};
+}
+
+/// Returns what a table of evenly spaced entries has at a place, 0..1.
+template <class Table>
+auto of_table(const Table& table, double place) {
+    const double at = place * static_cast<double>(table.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), table.size() - 2);
+    const double t = at - static_cast<double>(below);
+    return (1.0 - t) * table[below] + t * table[below + 1];
+}
+
+double row_place(int row, const SolidGrid& grid) {
+    return static_cast<double>(row) / (grid.rows - 1);
+}
+
+/// Returns the horizontal direction away from the axis.
+glm::dvec3 level(const glm::dvec3& outwards, double angle) {
+    const auto turn = sine_cosine(angle);
+    return unit_or({outwards.x, 0.0, outwards.z}, {turn.cosine, 0.0, turn.sine});
+}
+
+/// The uneven clod of one species.
+class Clod {
+  public:
+    Clod(const GroundLayer& layer, const Foot& foot, Random random)
+        : reach_(layer.style.soil.lumps > 0 ? layer.weight * layer.style.soil.reach : 0.0),
+          rise_(layer.weight * layer.style.soil.rise),
+          grown_(smooth_step(0.0, grown_weight, layer.weight)),
+          foot_(foot),
+          lowest_(foot(1.0, 0.0).place) {
+        for (auto& row : phases_)
+            for (double& phase : row) phase = random.uniform(0.0, 2.0 * pi);
+    }
+
+    /// Returns a point of the surface.
+    ///
+    /// place  0..1 over the rows
+    [[nodiscard]] FootPoint at(double place, double angle) const {
+        const double last = static_cast<double>(clod_rows.size() - 1);
+        const auto below = std::min(static_cast<std::size_t>(place * last), clod_rows.size() - 2);
+        const double t = place * last - static_cast<double>(below);
+        const FootPoint from = corner(below, angle), to = corner(below + 1, angle);
+        return {(1.0 - t) * from.place + t * to.place,
+                unit_or((1.0 - t) * from.outwards + t * to.outwards, from.outwards)};
+    }
+
+  private:
+    double reach_, rise_, grown_;
+    const Foot& foot_;
+    glm::dvec3 lowest_;
+    /// Of the waves, for what lies above the edge, for the edge, and for what lies below.
+    std::array<std::array<double, clod_waves.size()>, 3> phases_{};
+
+    [[nodiscard]] double uneven(std::size_t row, double angle) const {
+        const auto& phases = phases_[row < 3 ? 0 : row == 3 ? 1 : 2];
+        double sum = 0.0;
+        for (std::size_t k = 0; k < clod_waves.size(); ++k)
+            sum += clod_parts[k] * sine(clod_waves[k] * angle + phases[k]);
+        return sum;
+    }
+
+    [[nodiscard]] FootPoint corner(std::size_t number, double angle) const {
+        const ClodRow& row = clod_rows[number];
+        const FootPoint foot = foot_(row.depth, angle);
+        const glm::dvec3 out = level(foot.outwards, angle);
+        const double factor = 1.0 + row.stray * uneven(number, angle);
+        glm::dvec3 place, normal;
+        if (row.depth > 0.0) {
+            place = foot.place + reach_ * factor * row.off * foot.outwards;
+            normal = foot.outwards;
+        } else {
+            // Above the edge the soil follows the ground, not the foot.
+            place = foot.place + reach_ * row.off * (row.off > 0.5 ? factor : 1.0) * out;
+            place.y = rise_ * row.rise * factor;
+            normal = unit_or(reach_ * upwards + rise_ * out, upwards);
+        }
+        place.y += reach_ * row.drop;
+        return {lowest_ + grown_ * (place - lowest_), normal};
+    }
+};
+
+/// Builds the solids of one layer.
+class GroundBuilder {
+  public:
+    GroundBuilder(Mesh& mesh, const GroundLayer& layer, const Foot& foot, const Detail& detail,
+                  std::uint32_t seed, bool textured, bool keep_absent)
+        : mesh_(mesh),
+          style_(layer.style),
+          weight_(layer.weight),
+          stream_(layer.stream),
+          seed_(seed),
+          foot_(foot),
+          detail_(detail),
+          resolution_(by_columns(resolutions, detail)),
+          textured_(textured),
+          drawn_(layer.weight > 0.0 || keep_absent),
+          clod_(layer, foot, random(0, -1)) {}
+
+    void add() {
+        if (style_.soil.lumps > 0 && resolution_.clod.rows > 0) add_clod();
+        const Built built = built_of(style_, detail_);
+        for (int i = 0; i < built.lumps; ++i) add_lump(i);
+        for (int i = 0; i < built.pieces; ++i) add_piece(i);
+        for (int i = 0; i < built.strands; ++i) add_strand(i);
+    }
+
+  private:
+    Mesh& mesh_;
+    const GroundStyle& style_;
+    double weight_;
+    std::uint32_t stream_, seed_;
+    const Foot& foot_;
+    const Detail& detail_;
+    const Resolution& resolution_;
+    bool textured_, drawn_;
+    Clod clod_;
+
+    [[nodiscard]] Random random(std::uint32_t kind, int number) const {
+        return {seed_, purposes::ground + kind, stream_ + static_cast<std::uint32_t>(number)};
+    }
+
+    /// Returns the angle at which a piece lies: evenly spread, however many are built.
+    static double angle_of(int number, Random& random) {
+        return golden_angle * number + 0.9 * random.symmetric();
+    }
+
+    /// Appends a solid of this grid, painted by a piece of a band of the ground's strip.
+    ///
+    /// from   0..1, where the piece begins in what is left of the strip
+    /// share  of the strip's length
+    void append_solid(const SolidGrid& grid, std::size_t band, double from, double share,
+                      std::vector<glm::dvec3>& corners, const glm::dvec3& normal) {
+        GridSolid solid{grid, Part::ground, {}, {}};
+        solid.window = {from * (1.0 - share), from * (1.0 - share) + share, ground_bands[band].from,
+                        ground_bands[band].to};
+        solid.corners = std::move(corners);
+        append(mesh_, solid, normal, textured_, drawn_);
+    }
+
+    static void close_row(std::vector<glm::dvec3>& corners, const SolidGrid& grid) {
+        corners.push_back(corners[corners.size() - static_cast<std::size_t>(grid.columns)]);
+    }
+
+    void add_clod() {
+        const SolidGrid& grid = resolution_.clod;
+        std::vector<glm::dvec3> corners;
+        Random random = this->random(0, -2);
+        const double grain = clod_grain * weight_ * style_.soil.reach;
+        // Angles run counter-clockwise seen from below, where its tip is.
+        for (int i = 0; i < grid.rows; ++i) {
+            for (int j = 0; j < grid.columns; ++j) {
+                const bool is_tip = i + 1 == grid.rows;
+                const FootPoint at =
+                    clod_.at(row_place(i, grid), is_tip ? 0.0 : 2.0 * pi * j / grid.columns);
+                const double stray = grain * random.symmetric();
+                corners.push_back(at.place + (is_tip ? 0.0 : stray) * at.outwards);
+            }
+            close_row(corners, grid);
+        }
+        append_solid(grid, 0, 0.0, 1.0, corners, upwards);
+    }
+
+    void add_lump(int number) {
+        Random random = this->random(0, number);
+        const double place = static_cast<double>(number) / std::max(style_.soil.lumps, 1);
+        const double angle = angle_of(number, random);
+        const double above = random.uniform(), far = random.uniform(), size = random.uniform();
+        const double flat = random.uniform(least_flatness, most_flatness);
+        const double length = random.uniform(1.0, longest_lump),
+                     spin = random.uniform(0.0, 2.0 * pi);
+        const double window = random.uniform();
+        const double radius = weight_ * style_.soil.size *
+                              (least_lump + (1.0 - least_lump) * power(1.0 - place, lump_power)) *
+                              (0.75 + 0.5 * size);
+        const FootPoint at =
+            clod_.at(above < lumps_above ? at_stem + (at_edge - at_stem) * std::sqrt(far)
+                                         : at_edge + (at_end - at_edge) * far,
+                     angle);
+        const glm::dvec3 along = square_to(at.outwards, {0.0, 1.0, 0.05});
+        const glm::dvec3 across = glm::cross(at.outwards, along);
+        std::array<std::array<double, 2>, 4 * 5> stray{};
+        for (auto& [wide, high] : stray) {
+            wide = lump_stray * random.symmetric();
+            high = lump_rise * random.symmetric();
+        }
+        const SolidGrid& grid = resolution_.lump;
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < grid.rows; ++i) {
+            const glm::dvec2 profile = of_table(lump_profile, row_place(i, grid));
+            const auto ring = static_cast<std::size_t>(3 * i / (grid.rows - 1));
+            const bool is_tip = i + 1 == grid.rows;
+            for (int j = 0; j < grid.columns; ++j) {
+                const auto& [wide, high] =
+                    stray[5 * ring + static_cast<std::size_t>(5 * j / grid.columns)];
+                const auto turn = sine_cosine(spin + 2.0 * pi * j / grid.columns);
+                const double r = radius * profile.y * (1.0 + wide);
+                const double rise = flat * radius * (profile.x + (is_tip ? 0.0 : high));
+                corners.push_back(at.place + rise * at.outwards + r * turn.cosine * along +
+                                  r * turn.sine * length * across);
+            }
+            close_row(corners, grid);
+        }
+        append_solid(grid, 0, window, 0.3, corners, at.outwards);
+    }
+
+    /// A curve with a flat section round it.
+    struct Rod {
+        glm::dvec3 from, along;  ///< its beginning, and unit direction there
+        glm::dvec3 bend{0.0}, wind{0.0};
+        glm::dvec3 side;  ///< unit, square to `along`: across it, where it is wide
+        double length = 0.0, width = 0.0, thickness = 0.0;  ///< the last two half, metres
+        std::array<double, 5> widths{};                     ///< along it, in shares of the largest
+    };
+
+    void add_rod(const Rod& rod, std::size_t band, double window, double share) {
+        const SolidGrid& grid = resolution_.rod;
+        const glm::dvec3 other = glm::cross(rod.along, rod.side);
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < grid.rows; ++i) {
+            const double t = row_place(i, grid);
+            const glm::dvec3 middle =
+                rod.from + rod.length * (t * rod.along + t * t * rod.bend +
+                                         sine(2.0 * pi * t) * (1.0 - t) * rod.wind);
+            const double wide = i + 1 == grid.rows ? 0.0 : of_table(rod.widths, t);
+            for (int j = 0; j < grid.columns; ++j) {
+                const auto turn = sine_cosine(2.0 * pi * j / grid.columns);
+                corners.push_back(middle + wide * (turn.cosine * rod.width * rod.side +
+                                                   turn.sine * rod.thickness * other));
+            }
+            close_row(corners, grid);
+        }
+        append_solid(grid, band, window, share, corners, other);
+    }
+
+    void add_piece(int number) {
+        Random random = this->random(1, number);
+        const PieceForm form = form_of(style_.litter.kind);
+        const double place = static_cast<double>(number) / std::max(style_.litter.pieces, 1);
+        const double angle = angle_of(number, random);
+        const double lot = random.uniform(), far = random.uniform(), turned = random.uniform();
+        const double stand = radians(random.uniform(form.least_stand, form.most_stand));
+        const double roll = 0.5 * random.symmetric(), bent = random.uniform(0.3, 1.0);
+        const double window = random.uniform(), size = random.uniform(0.7, 1.0);
+        Rod rod;
+        rod.length = weight_ * style_.litter.length * size * (1.0 - 0.5 * place);
+        rod.width = form.width * rod.length;
+        rod.thickness = form.thickness * rod.length;
+        rod.widths = form.widths;
+        const double lying = 1.0 - smooth_step(0.0, 0.7, stand);
+        // What lies reaches over the edge of the soil, what grows stands on it.
+        const double gap = lying > 0.5 ? far * far : 0.1 + 0.9 * far;
+        const FootPoint at = clod_.at(at_stem + (at_edge - at_stem) * gap, angle);
+        const glm::dvec3 out = level(at.outwards, angle);
+        const glm::dvec3 tangent = glm::cross(out, upwards);
+        rod.from = at.place;
+        if (lot < form.leaning) {
+            // It leans on the stem with its tip.
+            const auto steep = sine_cosine(0.5 + 0.6 * turned);
+            rod.from =
+                clod_.at(at_stem, angle).place + out * (rod.length * steep.cosine + rod.thickness);
+            rod.from.y = at.place.y;
+            rod.along = steep.sine * upwards - steep.cosine * out;
+            rod.bend = 0.3 * form.bend * bent * out;
+        } else {
+            const auto heading = sine_cosine(2.0 * pi * turned), steep = sine_cosine(stand);
+            // What stands leans away from the stem, what lies keeps clear of it.
+            const glm::dvec3 flat = unit_or(
+                heading.cosine * out + heading.sine * tangent + 1.2 * (1.0 - lying) * out, out);
+            const double slope = lying * style_.soil.rise / style_.soil.reach * glm::dot(flat, out);
+            rod.along = unit_or((steep.sine - slope) * upwards + steep.cosine * flat, upwards);
+            const double clear = 0.5 * rod.length * std::abs(glm::dot(flat, out)) + rod.width;
+            const double lift =
+                lying * (2.0 * rod.thickness + on_lumps * weight_ * style_.soil.size);
+            rod.from += lying * (out * clear - 0.5 * rod.length * rod.along) +
+                        upwards * (lift - form.sunk * rod.length);
+            rod.bend = form.bend * bent *
+                       (lying * upwards * roll + (1.0 - lying) * (flat - 0.3 * rod.along));
+        }
+        rod.side = turned_square(unit_or(glm::cross(upwards, rod.along), tangent), rod.along,
+                                 roll + (1.0 - lying) * turned * pi);
+        add_rod(rod, 1, window, 0.2);
+    }
+
+    void add_strand(int number) {
+        Random random = this->random(2, number);
+        const double angle = angle_of(number, random);
+        const double deep = random.uniform(), drop = random.uniform(-0.1, 0.7);
+        const double wind_angle = random.uniform(0.0, 2.0 * pi), window = random.uniform();
+        const FootPoint at = clod_.at(at_edge + (at_end - at_edge) * (0.2 + 0.8 * deep), angle);
+        Rod rod;
+        rod.length = weight_ * style_.strands.length * random.uniform(0.35, 1.0);
+        rod.along = unit_or(at.outwards - drop * upwards, -upwards);
+        rod.from = at.place - 0.1 * rod.length * rod.along;
+        rod.side = square_to(rod.along, {1.0, 0.1, 0.3});
+        rod.wind = strand_wind * turned_square(rod.side, rod.along, wind_angle);
+        rod.bend = -0.3 * upwards + 0.8 * rod.wind;
+        rod.width = rod.thickness = strand_width * rod.length;
+        rod.widths = strand_widths;
+        add_rod(rod, 2, window, 0.25);
+    }
+};
+
+/// Samples of a stem below the ground.
+constexpr int foot_samples = 64;
+
+/// Returns the share of the stem at which it leaves the ground; 0 if no point is below.
+double share_at_ground(const SubCurve& stem) {
+    OutlineSample last = stem.at(0.0);
+    if (last.y >= 0.0) return 0.0;
+    for (int i = 1; i <= foot_samples; ++i) {
+        const OutlineSample here = stem.at(static_cast<double>(i) / foot_samples);
+        if (here.y >= 0.0)
+            return last.share + (here.share - last.share) * last.y / (last.y - here.y);
+        last = here;
+    }
+    return 1.0;
+}
+
+/// Returns how far a sac stands off the stem at the ground.
+double clearance_of(const SacStyle& sac, const SubCurve& stem, double share) {
+    if (sac.height <= 0.0) return 0.0;
+    const double at_ground = stem.at(share).r;
+    double widest = at_ground;
+    for (int i = 0; i <= foot_samples; ++i) {
+        const OutlineSample here = stem.at(static_cast<double>(i) / foot_samples);
+        if (here.y <= sac.height) widest = std::max(widest, here.r);
+    }
+    return sac.hold * (widest - at_ground) +
+           2.0 * sac.thickness * smooth_step(0.0, 1.0, sac.height / (10.0 * sac.thickness));
+}
+
+}  // namespace
+
+MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& detail,
+                       bool keep_absent) {
+    const Resolution& resolution = by_columns(resolutions, detail);
+    MeshCount sum;
+    for (const GroundLayer& layer : layers) {
+        const GroundStyle& style = layer.style;
+        MeshCount one = resolution.clod.count().times(style.soil.lumps > 0 ? 1 : 0);
+        const Built built = built_of(style, detail);
+        one += resolution.lump.count().times(built.lumps);
+        one += resolution.rod.count().times(built.pieces + built.strands);
+        if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;
+        sum += one;
+    }
+    return sum;
+}
+
+void add_ground(Mesh& mesh, const std::vector<GroundLayer>& layers, const Foot& foot,
+                const Detail& detail, std::uint32_t seed, bool textured, bool keep_absent) {
+    for (const GroundLayer& layer : layers)
+        GroundBuilder(mesh, layer, foot, detail, seed, textured, keep_absent).add();
+}
+
+void add_ground(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
+    if (individual.grounds.empty()) return;
+    const SubCurve& stem = context.outline.stem;
+    const double share = share_at_ground(stem);
+    const double clear = clearance_of(individual.sac, stem, share);
+    const Foot foot = [&](double depth, double angle) {
+        const OutlineSample sample = stem.at(share * (1.0 - depth));
+        SurfacePoint point =
+            context.rest_surface.at(Part::stem, sample, context.rest_surface.column(angle));
+        context.deformer.apply({&point, 1}, context.deformer.station(Part::stem, sample));
+        const glm::dvec3 normal =
+            unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, -1.0, 0.0));
+        return FootPoint{point.position + clear * normal, normal};
+    };
+    add_ground(mesh, individual.grounds, foot, context.detail, individual.effective.seed,
+               context.textured, context.keep_absent);
+}
+
+}  // namespace sporeprint
