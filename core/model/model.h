@@ -62,7 +62,8 @@ struct Model {
                                              "what forms under them; glow."});
         visit(&Model::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
         visit(&Model::surface, Info{.name = "surface", .doc = "What is painted."});
-        visit(&Model::material, Info{.name = "material", .doc = "Slime, velvet and glow."});
+        visit(&Model::material,
+              Info{.name = "material", .doc = "Slime, velvet, light through the flesh, and glow."});
     }
     bool operator==(const Model&) const = default;
 };

@@ -360,6 +360,7 @@ struct Surface {
 struct Material {
     double slime = 0.0;
     double velvet = 0.0;
+    double translucency = 0.0;
     Colour glow_colour = {150, 255, 190};
 
     static constexpr void fields(auto visit) {
@@ -371,6 +372,13 @@ struct Material {
                                .min = 0,
                                .max = 1,
                                .doc = "Sheen of fine hairs against the light."});
+        visit(&S::translucency,
+              Info{.name = "translucency",
+                   .unit = "m",
+                   .min = 0,
+                   .max = 0.02,
+                   .doc = "Depth of flesh in which the light that passes through it falls to 1/e; "
+                          "0: opaque. Files and pictures show it with materials=rich."});
         visit(&S::glow_colour,
               Info{.name = "glow_colour",
                    .doc = "Light from inside, where it glows; the skin's own colour filters it."});
