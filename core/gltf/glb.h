@@ -38,6 +38,17 @@ struct MaterialLook {
     glm::dvec3 glow{0.0};   ///< emission, linear, 0..1; scaled by KHR_materials_emissive_strength
 };
 
+/// The matt light that passes through a surface instead of being reflected:
+/// KHR_materials_diffuse_transmission.
+struct GlbTransmission {
+    double factor = 0.0;   ///< share of light that passes through the thinnest places; 0: opaque
+    glm::dvec3 tint{1.0};  ///< of that light, linear; the base colour filters it too
+    /// A PNG image whose alpha is multiplied with the factor: 1 for a film, 0 for what is too thick.
+    /// Empty for the same everywhere.
+    Slice thinness = {};
+    double mean = 1.0;  ///< of that alpha, for a material without images
+};
+
 /// What differs between the tiles of an atlas in the look of its material: PNG images with a texel
 /// for each tile, sampled without interpolation; empty where all tiles are alike.
 struct TileLooks {
@@ -58,6 +69,7 @@ struct GlbMaterial {
     const ImageSet* fallback = nullptr;
     std::array<std::string, 3> fallback_urls = {};
     TileLooks tile_looks = {};  ///< of a material with embedded images
+    GlbTransmission transmission = {};
     /// Of an impostor: texels of the base colour with less alpha are not drawn, and the red channel of
     /// the third image is no occlusion. 0 for images without alpha. Embedded images only.
     double alpha_cutoff = 0.0;

@@ -71,14 +71,17 @@ std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tabl
     return first;
 }
 
-std::size_t TextureTables::texture_of_tiles(const std::string& name, const Slice& png,
-                                            Tables& tables) {
+std::size_t TextureTables::texture_of_png(const std::string& name, const Slice& png,
+                                          Sampling sampling, Tables& tables) {
+    for (const PngTexture& earlier : pngs_)
+        if (earlier.file.data() == png.data()) return earlier.texture;
     append_quoted((images += separator(images)) += "{\"name\":", name);
     add_file(png, "image/png", tables);
     images += '}';
-    append((textures += separator(textures)) += "{\"sampler\":", sampler_of(Sampling::nearest));
+    append((textures += separator(textures)) += "{\"sampler\":", sampler_of(sampling));
     append(textures += ",\"source\":", image_count_++);
     textures += '}';
+    pngs_.push_back({png, texture_count_});
     return texture_count_++;
 }
 
@@ -143,9 +146,10 @@ std::string material_extensions_json(const GlbMaterial& material,
         append(out += "{\"index\":", *textures + which);
         out += '}';
     };
-    const auto texture_of_tiles = [&](std::string& out, const char* kind, const Slice& png) {
+    const auto texture_of_png = [&](std::string& out, const char* kind, const Slice& png,
+                                    Sampling sampling) {
         const std::string name = material.name + '_' + kind;
-        append(out += "{\"index\":", texture_tables.texture_of_tiles(name, png, tables));
+        append(out += "{\"index\":", texture_tables.texture_of_png(name, png, sampling, tables));
         out += '}';
     };
     if (look.coat > 0.0) {
@@ -158,7 +162,8 @@ std::string material_extensions_json(const GlbMaterial& material,
         else
             coat += ",\"clearcoatRoughnessFactor\":0.25";
         if (extended && material.tile_looks.coat.size > 0)
-            texture_of_tiles(coat += ",\"clearcoatTexture\":", "coat", material.tile_looks.coat);
+            texture_of_png(coat += ",\"clearcoatTexture\":", "coat", material.tile_looks.coat,
+                           Sampling::nearest);
         extension("KHR_materials_clearcoat", coat);
     }
     if (is_visible(look.glow)) {
@@ -170,9 +175,22 @@ std::string material_extensions_json(const GlbMaterial& material,
         std::string sheen = "\"sheenColorFactor\":";
         append_triple(sheen, glm::vec3(look.sheen));
         if (extended && material.tile_looks.sheen.size > 0)
-            texture_of_tiles(sheen += ",\"sheenColorTexture\":", "sheen",
-                             material.tile_looks.sheen);
+            texture_of_png(sheen += ",\"sheenColorTexture\":", "sheen", material.tile_looks.sheen,
+                           Sampling::nearest);
         extension("KHR_materials_sheen", sheen + ",\"sheenRoughnessFactor\":0.45");
+    }
+    const GlbTransmission& through = material.transmission;
+    if (extended && through.factor > 0.0) {
+        const double mean = textures ? 1.0 : through.mean;
+        std::string members = "\"diffuseTransmissionFactor\":";
+        append(members, static_cast<float>(through.factor * mean));
+        if (textures && through.thinness.size > 0)
+            texture_of_png(members += ",\"diffuseTransmissionTexture\":", "thinness",
+                           through.thinness, Sampling::clamped);
+        append_triple(members += ",\"diffuseTransmissionColorFactor\":", glm::vec3(through.tint));
+        // Light that passes has crossed the skin too.
+        if (textures) texture(members += ",\"diffuseTransmissionColorTexture\":", 0);
+        extension("KHR_materials_diffuse_transmission", members);
     }
     if (extensions.empty()) return emission;
     return emission + ",\"extensions\":{" + extensions + "}";

@@ -38,8 +38,9 @@ struct TextureTables {
     /// material has the same images.
     std::size_t textures_of(const GlbMaterial& material, Tables& tables, Extensions& used);
 
-    /// Adds a texture of a PNG image with one texel for each tile of an atlas; returns its index.
-    std::size_t texture_of_tiles(const std::string& name, const Slice& png, Tables& tables);
+    /// Returns the index of the texture of a PNG image; adds it unless an earlier material has it.
+    std::size_t texture_of_png(const std::string& name, const Slice& png, Sampling sampling,
+                               Tables& tables);
 
   private:
     /// A material that added three textures, and the index of the first.
@@ -48,7 +49,14 @@ struct TextureTables {
         std::size_t first;
     };
 
+    /// A PNG image and its texture.
+    struct PngTexture {
+        Slice file;
+        std::size_t texture;
+    };
+
     std::vector<Source> sources_;
+    std::vector<PngTexture> pngs_;
     std::vector<Sampling> sampling_;  ///< by sampler
     std::size_t texture_count_ = 0, image_count_ = 0;
 

@@ -16,6 +16,7 @@
 #include "core/grow/impostor.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
+#include "core/grow/translucency.h"
 #include "core/grow/variants.h"
 #include "core/grow/wood.h"
 #include "core/individual/proportion.h"
@@ -132,6 +133,7 @@ void add_images(Estimate& e, const ColonySpec& spec, Substrate substrate) {
     add_image_bytes(
         e, (of_wood + static_cast<std::uint64_t>(image_sets(spec.params.variants)) * texels) / 3,
         spec.params.textures, spec.params.file);
+    if (texels > 0) e.bytes += bytes_of_thinness(spec.params.textures, spec.params.file);
     if (has_impostor(spec.params.lod, spec.params.file))
         add_impostor(e, spec.params.texture_size, spec.params.file);
 }
@@ -620,7 +622,10 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     EmbeddedImages images;
     std::vector<EmbeddedImages> variant_images;
     if (has_meshes) {
-        scene.materials.push_back({.name = skin_name(spec), .look = look_of(typical.model)});
+        scene.materials.push_back(
+            {.name = skin_name(spec),
+             .look = look_of(typical.model),
+             .transmission = transmission_of(typical, params.file, execution)});
         images = attach_images(scene.materials.front(), params.textures, params.file,
                                extras.image_urls, execution, [&](ImageFormat format) {
                                    return painted_images(painting_of(painted), execution, format);

@@ -4,6 +4,7 @@
 
 #include "core/gltf/glb.h"
 #include "core/grow/names.h"
+#include "core/grow/translucency.h"
 #include "core/mesh/index_order.h"
 #include "core/params/canonical.h"
 #include "core/params/reader.h"
@@ -167,7 +168,8 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     scene.stands_on_ground = false;
     set_options(scene, params.file);
     const LeafPaint paint = paint_of(params);
-    scene.materials.push_back({.name = leaf_material_name(spec.preset, paint, params.textures)});
+    scene.materials.push_back({.name = leaf_material_name(spec.preset, paint, params.textures),
+                               .transmission = transmission_of_leaves(params.file)});
     const EmbeddedImages images = attach_images(
         scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
         [&](ImageFormat format) { return painted_images(paint, execution, format); });

@@ -15,6 +15,7 @@
 #include "core/grow/level_choice.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
+#include "core/grow/translucency.h"
 #include "core/grow/variants.h"
 #include "core/grow/wood.h"
 #include "core/mesh/detail.h"
@@ -152,6 +153,7 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     add_image_bytes(
         e, (of_wood + static_cast<std::uint64_t>(image_sets(params.variants)) * images) / 3,
         params.textures, params.file);
+    if (has_skin) e.bytes += bytes_of_thinness(params.textures, params.file);
     add_solid_bytes(e, wood_behind(individual) ? 2 : 1, 0, params.file);
     if (has_impostor(params.lod, params.file)) add_impostor(e, params.texture_size, params.file);
     if (grows) {
@@ -268,7 +270,9 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     set_options(scene, params.file);
     if (has_skin)
         scene.materials.push_back(
-            {.name = skin_name(images_of), .look = look_of(individual.model)});
+            {.name = skin_name(images_of),
+             .look = look_of(individual.model),
+             .transmission = transmission_of(individual, params.file, execution)});
     scene.stands_on_ground = !individual.grows_from_wall();
     GrowthClip growth;
     if (params.animation == Animation::growth) {

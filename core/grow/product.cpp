@@ -45,7 +45,7 @@ GlbGeometry storage_of(Compression compress) {
 
 void set_options(GlbScene& scene, const FileOptions& file) {
     scene.geometry = storage_of(file.compress);
-    scene.material_extensions = file.materials == MaterialSet::full;
+    scene.material_extensions = file.materials != MaterialSet::core;
     scene.sway = place_of(file.wind);
 }
 

@@ -222,7 +222,8 @@ Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
         const Individual individual =
             resolve(file_spec(spec, one, 0), atlas, execution.caches.morphs);
         SetMember& member = members.emplace_back(member_of(spec, one, individual));
-        member.images = materials.add(one, look_of(individual.model));
+        member.images = materials.add(one, look_of(individual.model),
+                                      [&] { return flesh_of(individual, execution.parallel); });
     }
     materials.add_to(scene, atlas, links, execution);
     execution.observer(Step::pack);

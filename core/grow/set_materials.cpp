@@ -82,7 +82,8 @@ std::shared_ptr<const ImageSet> tiled_images(const std::vector<PaintSpec>& tiles
 
 }  // namespace
 
-SetTile SetMaterials::add(const SetIndividual& one, const MaterialLook& look) {
+SetTile SetMaterials::add(const SetIndividual& one, const MaterialLook& look,
+                          const std::function<Flesh()>& flesh) {
     const MushroomSpec first = file_spec(spec_, one, 0);
     // Names of skins state what their images depend on.
     std::string name = skin_name(first), shared;
@@ -102,7 +103,10 @@ SetTile SetMaterials::add(const SetIndividual& one, const MaterialLook& look) {
     const auto same = std::find_if(tiles.begin(), tiles.end(),
                                    [&](const Tile& tile) { return tile.name == name; });
     const auto tile = static_cast<std::size_t>(same - tiles.begin());
-    if (same == tiles.end()) tiles.push_back({std::move(name), first, look});
+    if (same == tiles.end()) {
+        const bool is_rich = spec_.mushroom.file.materials == MaterialSet::rich;
+        tiles.push_back({std::move(name), first, look, is_rich ? flesh() : Flesh{}});
+    }
     return {found->second, tile};
 }
 
@@ -128,8 +132,10 @@ std::string SetMaterials::name_of(const Material& material) const {
 
 GlbMaterial SetMaterials::atlas_material(const Material& material) const {
     std::vector<MaterialLook> looks;
+    std::vector<Flesh> fleshes;
     for (const Tile& tile : material.tiles) {
         looks.push_back(tile.look);
+        fleshes.push_back(tile.flesh);
         if (tile.look.glow != looks.front().glow)
             throw Impossible("/atlas",
                              std::string("'") + name(spec_.params.atlas) +
@@ -142,6 +148,7 @@ GlbMaterial SetMaterials::atlas_material(const Material& material) const {
     out.name = name_of(material);
     out.look = largest_look(looks);
     out.tile_looks = tile_looks(sporeprint::grid_of(looks.size()), looks, out.look);
+    out.transmission = transmission_of(sporeprint::grid_of(looks.size()), fleshes);
     return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/grow/execution_context.h"
 #include "core/grow/product.h"
 #include "core/grow/set.h"
+#include "core/grow/translucency.h"
 
 namespace sporeprint {
 
@@ -27,9 +29,11 @@ class SetMaterials {
 
     /// Returns where the images of an individual are; those of equal images are the same.
     ///
-    /// one   individual of the plan
-    /// look  of its skin
-    SetTile add(const SetIndividual& one, const MaterialLook& look);
+    /// one    individual of the plan
+    /// look   of its skin
+    /// flesh  returns its flesh; called for materials=rich and images that are new
+    SetTile add(const SetIndividual& one, const MaterialLook& look,
+                const std::function<Flesh()>& flesh);
 
     /// Returns the grid of a material, for the individuals added so far; 1 x 1 without an atlas.
     [[nodiscard]] TileGrid grid_of(std::size_t material) const;
@@ -56,6 +60,7 @@ class SetMaterials {
         std::string name;      ///< of the skin that it would have alone
         MushroomSpec painted;  ///< whose images it has
         MaterialLook look;
+        Flesh flesh;
     };
     struct Material {
         std::size_t species = 0;  ///< index into those of the set

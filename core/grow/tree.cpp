@@ -12,6 +12,7 @@
 #include "core/grow/impostor.h"
 #include "core/grow/leaf.h"
 #include "core/grow/names.h"
+#include "core/grow/translucency.h"
 #include "core/math/direction.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
@@ -369,7 +370,8 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     if (leafy) {
         const LeafPaint paint = paint_of(leaf_of(params, atlas));
         scene.materials.push_back(
-            {.name = leaf_material_name(params.look.leaf.id.string(), paint, params.textures)});
+            {.name = leaf_material_name(params.look.leaf.id.string(), paint, params.textures),
+             .transmission = transmission_of_leaves(params.file)});
         leaf_images = attach_images(
             scene.materials[1], params.textures, params.file, leaf_urls, execution,
             [&](ImageFormat format) { return painted_images(paint, execution, format); });

@@ -26,7 +26,7 @@ void refuse_impossible_variants(Variants variants, Textures textures, const File
     if (file.materials == MaterialSet::core)
         throw Impossible(
             "/variants",
-            value + "is an extension of materials; ask for materials=full, or for none");
+            value + "is an extension of materials; ask for materials=full or rich, or for none");
 }
 
 std::vector<Variant> variants_of(const MushroomSpec& spec, const Individual& individual) {

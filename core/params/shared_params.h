@@ -92,10 +92,12 @@ constexpr const char* name(ImageFormats formats) {
 }
 
 /// Which optional extensions materials have.
-enum class MaterialSet { full, core };
+enum class MaterialSet { rich, full, core };
 
 constexpr const char* name(MaterialSet materials) {
     switch (materials) {
+        case MaterialSet::rich:
+            return "rich";
         case MaterialSet::full:
             return "full";
         case MaterialSet::core:
@@ -296,12 +298,17 @@ struct FileOptions {
                           "loaders without it.",
                    .group = "file",
                    .default_from = "profile"});
-        visit(&O::materials,
-              Info{.name = "materials",
-                   .doc = "Materials with all optional extensions (clear coat, sheen, strength of "
-                          "emission), or of core glTF alone, which is cheaper to draw.",
-                   .group = "file",
-                   .default_from = "profile"});
+        visit(
+            &O::materials,
+            Info{.name = "materials",
+                 .doc = "Materials of core glTF alone, which is cheapest to draw; full: with clear "
+                        "coat, sheen and strength of emission, by optional extensions; rich: "
+                        "also with the light that passes through thin flesh and leaves, by "
+                        "KHR_materials_diffuse_transmission. Readers without it show what full "
+                        "has; the alpha of its image, how thin the flesh is (1: a film, 0: "
+                        "opaque), is there for shaders of one's own. An impostor has none.",
+                 .group = "file",
+                 .default_from = "profile"});
         visit(
             &O::lods,
             Info{.name = "lods",

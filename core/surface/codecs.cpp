@@ -74,7 +74,9 @@ Picture decoded_jpeg(std::span<const std::uint8_t> file, const std::string& path
     return picture;
 }
 
-Picture decoded_png(std::span<const std::uint8_t> file, const std::string& path) {
+/// Returns the colours of a PNG file, or its alpha as grey.
+Picture decoded_png(std::span<const std::uint8_t> file, const std::string& path,
+                    bool is_alpha = false) {
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;
@@ -85,13 +87,16 @@ Picture decoded_png(std::span<const std::uint8_t> file, const std::string& path)
         ~Release() { png_image_free(image); }
     } release{&image};
     check_size(image.width, image.height, path);
-    image.format = PNG_FORMAT_RGBA;  // straight alpha: colours are unchanged, alpha is dropped
+    image.format = PNG_FORMAT_RGBA;  // straight alpha: colours are unchanged by it
     Bytes rgba(PNG_IMAGE_SIZE(image));
     Picture picture = empty_picture(static_cast<int>(image.width), static_cast<int>(image.height));
     if (png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) == 0)
         refuse(path, "not a readable PNG file");
     for (std::size_t from = 0, to = 0; to < picture.rgb.size(); from += 4, to += 3)
-        std::memcpy(&picture.rgb[to], &rgba[from], 3);
+        if (is_alpha)
+            std::memset(&picture.rgb[to], rgba[from + 3], 3);
+        else
+            std::memcpy(&picture.rgb[to], &rgba[from], 3);
     return picture;
 }
 
@@ -252,6 +257,10 @@ Picture decoded_picture(std::span<const std::uint8_t> file, const std::string& p
     if (starts_with(file, "RIFF", 4) && starts_with(file, "WEBP", 4, 8))
         return decoded_webp(file, path);
     refuse(path, "neither a PNG, a JPEG nor a WebP file");
+}
+
+Picture decoded_alpha(std::span<const std::uint8_t> file, const std::string& path) {
+    return decoded_png(file, path, true);
 }
 
 Picture decoded_smaller(std::span<const std::uint8_t> file, const std::string& path,

@@ -66,6 +66,9 @@ enum class Chroma { halved, full };
 ///          2048 x 2048
 [[nodiscard]] Picture decoded_picture(std::span<const std::uint8_t> file, const std::string& path);
 
+/// Decodes the alpha of a PNG file of this generator as a grey picture.
+[[nodiscard]] Picture decoded_alpha(std::span<const std::uint8_t> file, const std::string& path);
+
 /// Decodes an image of this generator, a JPEG file at a half, a quarter or an eighth of its size if
 /// neither side is then less than `least_side`, which takes less time.
 [[nodiscard]] Picture decoded_smaller(std::span<const std::uint8_t> file, const std::string& path,

@@ -82,6 +82,7 @@ const images = [
     small,
     `${small}&image_format=webp&wind=uv`,
     `${small}&image_format=webp_jpg&wind=color`,
+    `${small}&materials=rich`,
     "textures=external",
     "textures=none",
     "textures=none&wind=attribute",

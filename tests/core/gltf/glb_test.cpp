@@ -136,6 +136,41 @@ TEST(Glb, MaterialExtensionsAreNamedExactlyWhenTheyAreUsed) {
               "[0.25,0.25,0.25]");
 }
 
+TEST(Glb, LightThatPassesIsAnOptionalExtensionWithOneImage) {
+    Mesh mesh = mesh_of(textured(order_of("mycena_sanguinolenta", 0.6, 2, 2)));
+    const Slice thinness = slice_of("PNG");
+    const auto written = [&](const GlbTransmission& through, bool textured, bool extended = true) {
+        GlbScene scene;
+        for (const char* name : {"dry", "wet"}) {
+            scene.materials.push_back({.name = name, .transmission = through});
+            if (textured) scene.materials.back().image_urls = {"/a.jpg", "/b.jpg", "/c.jpg"};
+        }
+        scene.meshes.push_back({"m", {{&mesh, 0, {}}, {&mesh, 1, {}}}});
+        scene.nodes.push_back({.name = "m", .mesh = 0});
+        scene.material_extensions = extended;
+        return document_of(glb(scene));
+    };
+    const std::string path = "/materials/1/extensions/KHR_materials_diffuse_transmission";
+    EXPECT_EQ(written({}, true).find("extensionsUsed"), nullptr);
+    const GlbTransmission through{0.5, {1.0, 0.5, 0.25}, thinness, 0.5};
+    EXPECT_EQ(written(through, true, false).find("extensionsUsed"), nullptr);
+
+    const Value rich = written(through, true);
+    EXPECT_EQ(dump(*rich.find("extensionsUsed")), R"(["KHR_materials_diffuse_transmission"])");
+    EXPECT_EQ(rich.find("extensionsRequired"), nullptr);
+    EXPECT_EQ(dump(*rich.at_pointer(path)),
+              R"({"diffuseTransmissionFactor":0.5,"diffuseTransmissionTexture":{"index":3},)"
+              R"("diffuseTransmissionColorFactor":[1,0.5,0.25],)"
+              R"("diffuseTransmissionColorTexture":{"index":0}})");
+    EXPECT_EQ(rich.find("images")->items().size(), 4U) << "both materials share it";
+
+    const Value bare = written(through, false);
+    EXPECT_EQ(
+        dump(*bare.at_pointer(path)),
+        R"({"diffuseTransmissionFactor":0.25,"diffuseTransmissionColorFactor":[1,0.5,0.25]})");
+    EXPECT_EQ(bare.find("images"), nullptr);
+}
+
 TEST(Glb, TheModelDeterminesClearcoatSheenAndEmission) {
     MushroomSpec order = textured(order_of("x", 0.6, 2, 2));
     order.mix.clear();

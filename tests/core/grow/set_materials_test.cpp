@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,9 @@ Bytes file_of(const SetSpec& spec) {
     return joined(grow_set(spec, planned_set(spec, atlas(), {}), atlas()).glb);
 }
 
-/// Returns an embedded image, decoded.
-Picture picture_of(const Bytes& file, const Value& json, std::size_t image) {
+/// Returns the file of an embedded image.
+std::span<const std::uint8_t> file_of_image(const Bytes& file, const Value& json,
+                                            std::size_t image) {
     const auto view_index = static_cast<std::size_t>(
         json.find("images")->items()[image].find("bufferView")->as_number());
     const Value& view = json.find("bufferViews")->items()[view_index];
@@ -48,8 +51,12 @@ Picture picture_of(const Bytes& file, const Value& json, std::size_t image) {
     };
     std::size_t head = 0;  // length of the JSON chunk
     for (std::size_t i = 4; i > 0; --i) head = head << 8 | file[12 + i - 1];
-    return decoded_picture({file.data() + 28 + head + number("byteOffset"), number("byteLength")},
-                           "/image");
+    return {file.data() + 28 + head + number("byteOffset"), number("byteLength")};
+}
+
+/// Returns an embedded image, decoded.
+Picture picture_of(const Bytes& file, const Value& json, std::size_t image) {
+    return decoded_picture(file_of_image(file, json, image), "/image");
 }
 
 /// Returns the texel of a picture at a texture coordinate.
@@ -161,6 +168,41 @@ TEST(SetMaterials, ACoatOfSomeTilesIsAnImageWithATexelForEach) {
     EXPECT_EQ(json_chunk(file_of(core)).find("images")->items().size(), 3U);
 }
 
+TEST(SetMaterials, EveryTileHasTheThinnessOfItsFlesh) {
+    SetSpec spec = set_with(AtlasShare::set);
+    spec.species[0] = {{"fomes_fomentarius", 1000}};
+    spec.params.seeds = 1;
+    spec.mushroom.file.materials = MaterialSet::rich;
+    const Bytes file = file_of(spec);
+    const Value json = json_chunk(file);
+    const std::string through = "/materials/0/extensions/KHR_materials_diffuse_transmission";
+    const Value* const index = json.at_pointer(through + "/diffuseTransmissionTexture/index");
+    ASSERT_NE(index, nullptr);
+    const Value& texture =
+        json.find("textures")->items()[static_cast<std::size_t>(index->as_number())];
+    const Picture picture = decoded_alpha(
+        file_of_image(file, json, static_cast<std::size_t>(texture.find("source")->as_number())),
+        "/image");
+    ASSERT_EQ(picture.width, 2 * picture.height);
+    const SetPlan plan = planned_set(spec, atlas(), {});
+    const auto& individuals = json.find("asset")->find("extras")->find("individuals")->items();
+    const int side = picture.width / 4;
+    for (std::size_t i = 0; i < plan.individuals.size(); ++i) {
+        const Flesh flesh =
+            flesh_of(resolve(file_spec(spec, plan.individuals[i], 0), atlas()), in_turn);
+        const int tile = static_cast<int>(individuals[i].find("tile")->as_number());
+        double found = 0.0, expected = 0.0;
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const int at = (tile / 4 * side + y) * picture.width + tile % 4 * side + x;
+                found += picture.rgb[3 * static_cast<std::size_t>(at)];
+                if (flesh.thinness.side > 0)
+                    expected += flesh.thinness.shares[static_cast<std::size_t>(y * side + x)];
+            }
+        EXPECT_EQ(found, expected) << i;
+    }
+}
+
 TEST(SetMaterials, AnAtlasOfOneImageIsThatOfItsOwn) {
     SetSpec spec = set_with(AtlasShare::species);
     spec.params.ages = {0.6};
@@ -222,8 +264,9 @@ TEST(SetMaterials, WhatOneAtlasCannotHoldIsRefused) {
     SetSpec glowing = set_with(AtlasShare::set);
     SetMaterials materials(glowing);
     const SetPlan plan = planned_set(glowing, atlas(), {});
-    (void)materials.add(plan.individuals.front(), {.glow = glm::dvec3(0.5)});
-    (void)materials.add(plan.individuals.back(), {});
+    const auto no_flesh = [] { return Flesh{}; };
+    (void)materials.add(plan.individuals.front(), {.glow = glm::dvec3(0.5)}, no_flesh);
+    (void)materials.add(plan.individuals.back(), {}, no_flesh);
     GlbScene scene;
     EXPECT_TRUE(names(refusal([&] { materials.add_to(scene, atlas(), {}, {}); }), "/atlas",
                       "glow differently"));

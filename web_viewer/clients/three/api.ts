@@ -212,10 +212,10 @@ export interface components {
                     image_format?: "jpg" | "webp" | "webp_jpg";
                     /**
                      * materials
-                     * @description Materials with all optional extensions (clear coat, sheen, strength of emission), or of core glTF alone, which is cheaper to draw.
+                     * @description Materials of core glTF alone, which is cheapest to draw; full: with clear coat, sheen and strength of emission, by optional extensions; rich: also with the light that passes through thin flesh and leaves, by KHR_materials_diffuse_transmission. Readers without it show what full has; the alpha of its image, how thin the flesh is (1: a film, 0: opaque), is there for shaders of one's own. An impostor has none.
                      * @enum {string}
                      */
-                    materials?: "full" | "core";
+                    materials?: "rich" | "full" | "core";
                     /**
                      * lods
                      * @description Levels of detail in the file: that of lod or triangles alone, or all from it to the last with the images of the first; a mushroom has a further level between two that differ by more than four times. nodes: nodes named _LOD0, _LOD1 and so on at one place, for modelling programs (viewers draw all of them). msft: by MSFT_lod, where other readers show the first.
