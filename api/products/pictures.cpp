@@ -2,9 +2,11 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "core/params/query.h"
 #include "core/params/schema.h"
+#include "core/params/shared_params.h"
 
 namespace sporeprint::api {
 
@@ -12,10 +14,15 @@ static_assert(well_described<PictureParams>());
 
 namespace {
 
+/// The parameter of a file of which one value changes its picture.
+constexpr std::string_view materials = "materials";
+
 /// Calls `visit` with the name of each parameter that changes a file, but no picture of it.
 template <class Visit>
 void each_file_parameter(Visit visit) {
-    FileOptions::fields([&](auto, const Info& info) { visit(std::string_view(info.name)); });
+    FileOptions::fields([&](auto, const Info& info) {
+        if (info.name != materials) visit(std::string_view(info.name));
+    });
     for (const std::string_view name : {"animation", "frames", "targets", "instancing", "variants"})
         visit(name);
 }
@@ -31,7 +38,10 @@ PictureQuery read_picture_query(Query query, ValidationErrors& errors) {
         });
         each_file_parameter(
             [&](std::string_view name) { is_of_file = is_of_file || pair.first == name; });
-        if (is_of_file)
+        if (pair.first == materials && pair.second == name(MaterialSet::core))
+            errors.add(400, pair.first,
+                       "'core' is of a file and changes no picture; ask for rich or full");
+        else if (is_of_file)
             errors.add(400, pair.first, "is of a file and changes no picture; leave it out");
         else
             (is_of_picture ? parts.picture : parts.product).push_back(pair);
@@ -51,6 +61,13 @@ PictureParams read_picture(const PictureQuery& query, ValidationErrors& errors) 
 Value picture_schema(Value product) {
     Value& properties = *product.find("properties");
     each_file_parameter([&](std::string_view name) { properties.erase(std::string(name)); });
+    if (Value* const set = properties.find(std::string(materials))) {
+        Value values = Value::array();
+        for (const MaterialSet shown : {MaterialSet::rich, MaterialSet::full})
+            values.push(Value(name(shown)));
+        set->erase("x-default-from");
+        set->set("enum", std::move(values)).set("default", name(MaterialSet::full));
+    }
     // Without a profile the default of the level of detail is that of core.
     Value& lod = *properties.find("lod");
     lod.erase("x-default-from");

@@ -96,6 +96,9 @@ DrawList draw_list(const GlbScene& scene, const Parallel& parallel, int side) {
         const GlbMaterial& from = scene.materials[i];
         DrawMaterial& to = list.materials[i];
         to.look = from.look;
+        const GlbTransmission& through = from.transmission;
+        to.transmission = static_cast<float>(through.factor * (from.images ? 1.0 : through.mean));
+        to.tint = glm::vec3(through.tint);
         if (!from.images) continue;
         const auto decode = [&](Texture& texture, ImageKind kind, Encoding encoding, int least) {
             const Slice& file = from.images->files[static_cast<std::size_t>(kind)];
@@ -108,6 +111,10 @@ DrawList draw_list(const GlbScene& scene, const Parallel& parallel, int side) {
         decode(to.base_color, ImageKind::base_color, Encoding::srgb, 2 * side);
         decode(to.normal, ImageKind::normal, Encoding::linear, side);
         decode(to.orm, ImageKind::orm, Encoding::linear, side);
+        if (through.thinness.size > 0)
+            tasks.emplace_back([&to, &file = through.thinness] {
+                to.thinness = Texture({file.data(), file.size}, Encoding::alpha, false);
+            });
     }
     parallel(tasks);
     return list;

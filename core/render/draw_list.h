@@ -34,6 +34,10 @@ struct Draw {
 struct DrawMaterial {
     Texture base_color, normal, orm;
     MaterialLook look;
+    /// Share of matt light that passes through, times `thinness` where there is one, and its tint.
+    float transmission = 0.0F;
+    glm::vec3 tint{1.0F};
+    Texture thinness;
 };
 
 struct DrawList {

@@ -201,9 +201,10 @@ std::vector<std::vector<Ambient>> ambient_light(const DrawList& list, std::span<
     for (std::size_t d = 0; d < list.draws.size(); ++d) {
         const Draw& draw = list.draws[d];
         const std::size_t count = draw.mesh->positions.size();
+        const bool is_translucent = list.materials[draw.material].transmission > 0.0F;
         found[d].resize(count);
         for (std::size_t from = 0; from < count; from += chunk)
-            tasks.emplace_back([&, d, from, count] {
+            tasks.emplace_back([&, d, from, count, is_translucent] {
                 for (std::size_t i = from; i < std::min(from + chunk, count); ++i) {
                     const glm::vec3 at = draw.placement.point(draw.mesh->positions[i]);
                     const glm::vec3 normal = glm::vec3(
@@ -211,7 +212,13 @@ std::vector<std::vector<Ambient>> ambient_light(const DrawList& list, std::span<
                     Ambient& sum = found[d][i];
                     for (std::size_t k = 0; k < lights.size(); ++k) {
                         const float lit = glm::dot(normal, lights[k].direction);
-                        if (lit <= 0.0F) continue;
+                        if (lit <= 0.0F) {
+                            if (is_translucent)
+                                (shadows[k].reaches(at, -normal) ? sum.behind
+                                                                 : sum.stopped_behind) -=
+                                    lights[k].strength * lit;
+                            continue;
+                        }
                         (shadows[k].reaches(at, normal) ? sum.arriving : sum.stopped) +=
                             lights[k].strength * lit;
                     }

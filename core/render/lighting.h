@@ -86,6 +86,8 @@ class ShadowMap {
 struct Ambient {
     glm::vec3 arriving{0.0F};  ///< that reaches it
     glm::vec3 stopped{0.0F};   ///< that the scene stops on its way
+    /// That reaches its other side, and that is stopped on its way there; of translucent materials.
+    glm::vec3 behind{0.0F}, stopped_behind{0.0F};
 };
 
 /// Returns the light of the surroundings at the vertices of each draw.

@@ -152,10 +152,14 @@ class Facet {
             const auto corner = static_cast<glm::vec3::length_type>(i);
             found.ambient.arriving += ambient[index_[i]].arriving * w[corner];
             found.ambient.stopped += ambient[index_[i]].stopped * w[corner];
+            found.ambient.behind += ambient[index_[i]].behind * w[corner];
+            found.ambient.stopped_behind += ambient[index_[i]].stopped_behind * w[corner];
         }
         const glm::vec3 own = mixed(mesh.normals, w);
         glm::vec3 normal = normalised(draw_->placement.of_normals * own, to_camera);
         found.smooth_normal = normal;
+        found.transmission = material_->transmission;
+        found.tint = material_->tint;
         if (!material_->base_color.empty() && !mesh.texture_coordinates.empty()) {
             const glm::vec2 uv = mixed(mesh.texture_coordinates, w);
             const float texels = texels_of_pixel(scale);
@@ -163,6 +167,8 @@ class Facet {
             const glm::vec3 orm = material_->orm.at(uv, texels);
             found.occlusion = orm.x;
             found.roughness = orm.y;
+            if (!material_->thinness.empty())
+                found.transmission *= material_->thinness.at(uv, 1.0F).x;
             const glm::vec3 bump = material_->normal.at(uv, texels) * 2.0F - glm::vec3(1.0F);
             const glm::vec4 tangent = mixed(mesh.tangents, w);
             const glm::vec3 along = normalised(draw_->placement.linear * glm::vec3(tangent),

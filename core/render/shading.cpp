@@ -41,6 +41,49 @@ float mirrored(float seen, float roughness) {
     return reflectance + (grazing - reflectance) * fifth_power(1.0F - seen);
 }
 
+/// Cosine beyond the terminator up to which light that enters on the lit side of thin flesh still leaves.
+constexpr float scattered = 0.25F;
+
+/// Of the light that neighbouring skin stops, a part arrives after it was reflected once or twice, in
+/// the colour of the skin: of the surroundings and of the lamps.
+constexpr float returned_sky = 0.45F, returned_lamps = 0.2F;
+
+/// Part of the light that enters thin flesh which leaves it again where it entered, as its scattering
+/// lets it: it shines no less in front than thick flesh of the same colour by all that passes.
+constexpr float scattered_back = 0.5F;
+
+/// Returns what arrives of light that neighbouring flesh stops: some is reflected, and some passes,
+/// because neighbouring flesh is about as thin as that of the point.
+glm::vec3 through_neighbours(const SurfacePoint& point, const glm::vec3& of_sky,
+                             const glm::vec3& of_lamps) {
+    const glm::vec3 passing = point.tint * point.transmission;
+    return point.base_color * (of_sky * (passing + glm::vec3(returned_sky)) +
+                               of_lamps * (passing + glm::vec3(returned_lamps)));
+}
+
+/// Returns the light that arrives behind a surface: of a group of lamps, and of the surroundings.
+///
+/// weight  of each lamp
+glm::vec3 arriving_behind(const SurfacePoint& point, const Lamps& lamps, std::size_t group,
+                          float weight) {
+    glm::vec3 sum(0.0F), stopped(0.0F);
+    for (std::size_t i = group; i < lamps.lights.size(); i += lamps.groups) {
+        const Light& light = lamps.lights[i];
+        const float behind =
+            (scattered - glm::dot(point.normal, light.direction)) / (1.0F + scattered);
+        if (behind <= 0.0F) continue;
+        // A surface that faces away from the lamp is the far side of its own flesh: it is reached
+        // unless other flesh is nearer to the lamp.
+        const float visible = lamps.shadows[i].light_at(point.at, -point.smooth_normal);
+        const glm::vec3 all = light.strength * (behind * weight);
+        sum += all * visible;
+        stopped += all * (1.0F - visible);
+    }
+    const Ambient& around = point.ambient;
+    return sum + around.behind * point.occlusion +
+           through_neighbours(point, around.stopped_behind * point.occlusion, stopped);
+}
+
 /// Returns how much light of open surroundings falls on a surface, relative to one that faces up.
 float brightness(const glm::vec3& normal) { return 0.65F + 0.35F * normal.y; }
 
@@ -82,11 +125,14 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
     // The surroundings were summed for the smooth normal; the sky is brighter than the ground.
     const float bump = brightness(normal) / brightness(point.smooth_normal) * point.occlusion;
     const glm::vec3 around = point.ambient.arriving * bump;
-    // Of the light that neighbouring skin stops, a part arrives after it was reflected once or
-    // twice, in the colour of the skin.
-    const glm::vec3 bounced =
-        point.base_color * (point.ambient.stopped * (0.45F * bump) + stopped * 0.2F);
+    const glm::vec3 bounced = point.base_color * (point.ambient.stopped * (returned_sky * bump) +
+                                                  stopped * returned_lamps);
     matt += around + bounced;
+    if (point.transmission > 0.0F) {
+        matt += through_neighbours(point, point.ambient.stopped * bump, stopped) - bounced;
+        matt *= 1.0F - (1.0F - scattered_back) * point.transmission;
+        matt += point.tint * point.transmission * arriving_behind(point, lamps, group, weight);
+    }
     const float arriving_share =
         around.y / std::max(point.ambient.arriving.y + point.ambient.stopped.y, 1e-3F);
     const glm::vec3 mirror_image = mirrored_surroundings(

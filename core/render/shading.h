@@ -18,7 +18,9 @@ struct SurfacePoint {
     glm::vec3 to_camera{0.0F, 1.0F, 0.0F};
     glm::vec3 base_color{0.8F};
     float occlusion = 1.0F, roughness = 0.9F;
-    Ambient ambient;  ///< at smooth_normal
+    Ambient ambient;            ///< at smooth_normal
+    float transmission = 0.0F;  ///< share of the matt light that passes through from behind
+    glm::vec3 tint{1.0F};       ///< of that light
 };
 
 /// Lamps with their shadows. With several groups, each lamp is in one of them.

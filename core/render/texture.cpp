@@ -37,7 +37,8 @@ Bytes halved(const Bytes& rgb, std::size_t side) {
 Texture::Texture(std::span<const std::uint8_t> file, Encoding encoding, bool repeats_u,
                  int least_side)
     : repeats_u_(repeats_u) {
-    Picture picture = decoded_smaller(file, "/image", least_side);
+    Picture picture = encoding == Encoding::alpha ? decoded_alpha(file, "/image")
+                                                  : decoded_smaller(file, "/image", least_side);
     if (picture.width != picture.height) throw GenerationError("an image of a material is square");
     for (std::size_t i = 0; i < light_.size(); ++i) {
         const double value = static_cast<double>(i) / 255.0;

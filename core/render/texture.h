@@ -14,14 +14,14 @@
 namespace sporeprint::render {
 
 /// What the bytes of an image encode.
-enum class Encoding { srgb, linear };
+enum class Encoding { srgb, linear, alpha };  ///< alpha: of a PNG file, as a grey image
 
 /// A square image with copies of half, quarter, ... its side.
 class Texture {
   public:
     Texture() = default;
 
-    /// Decodes a JPEG or WebP file.
+    /// Decodes a JPEG, WebP or PNG file.
     ///
     /// repeats_u   coordinates beyond 0..1 repeat the image in u; in v they take its border
     /// least_side  texels that are needed at least: larger images may be made smaller

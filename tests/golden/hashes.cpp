@@ -525,6 +525,22 @@ void add_pictures(Requests& requests, const std::shared_ptr<const Atlas>& atlas)
     };
 }
 
+/// Adds files and pictures with the light that passes through thin flesh and leaves.
+void add_rich(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    for (const char* id :
+         {"mycena_galericulata", "auricularia_auricula_judae", "ramaria_formosa"}) {
+        MushroomSpec spec = order_of({{id, 1000}}, 0.6, 2);
+        spec.params.file.materials = MaterialSet::rich;
+        add_mushroom(requests, atlas, std::string("rich/") + id, spec);
+        requests[line_of(std::string("rich/picture/") + id, 0.6, 2, small_side)] = [=] {
+            return grow_mushroom(spec, *atlas, pictured(View::below)).glb;
+        };
+    }
+    FileOptions file;
+    file.materials = MaterialSet::rich;
+    add_written_leaf(requests, "rich/", file);
+}
+
 /// Adds impostors of each product, alone in either format, and at the end of other levels.
 void add_impostors(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
     for (const ImageFormats format : {ImageFormats::jpg, ImageFormats::webp}) {
@@ -580,6 +596,7 @@ Requests golden_requests() {
     add_sets(requests, atlas);
     add_variants(requests, atlas);
     add_pictures(requests, atlas);
+    add_rich(requests, atlas);
     add_impostors(requests, atlas);
     return requests;
 }

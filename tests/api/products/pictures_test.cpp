@@ -70,6 +70,11 @@ TEST_F(PicturesTest, CanonicalUrlsNameWhatDiffersOfProductAndPicture) {
 
 TEST_F(PicturesTest, ViewsBackgroundsAndAgesAreDifferentPictures) {
     const std::string plain = text_of(ask(small(agaric)));
+    EXPECT_EQ(text_of(ask(small("/v1/mushrooms/fomes_fomentarius.png", "&materials=rich"))),
+              text_of(ask(small("/v1/mushrooms/fomes_fomentarius.png"))))
+        << "opaque";
+    EXPECT_NE(text_of(ask(small("/v1/mushrooms/mycena_galericulata.png", "&materials=rich"))),
+              text_of(ask(small("/v1/mushrooms/mycena_galericulata.png"))));
     for (const char* more : {"&view=top", "&background=white", "&turn_deg=40", "&age=0.2",
                              "&seed=2", "&textures=none"})
         EXPECT_NE(text_of(ask(small(agaric, more))), plain) << more;
@@ -122,6 +127,10 @@ TEST_F(PicturesTest, TheSchemaHasTheProductsParametersWithoutThoseOfFiles) {
         EXPECT_TRUE(found.contains(name)) << name;
     for (const char* name : {"profile", "compress", "frames", "lods"})
         EXPECT_FALSE(found.contains(name)) << name;
+    for (const Value& parameter : operation->find("parameters")->items())
+        if (const Value* name = parameter.find("name"); name && name->as_string() == "materials") {
+            EXPECT_EQ(dump(*parameter.find("schema")->find("enum")), R"(["rich","full"])");
+        }
 }
 
 TEST_F(PicturesTest, LargerPicturesAndMoreTrianglesCostMore) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "tests/support/solids.h"
@@ -102,6 +103,34 @@ TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
         stopped = std::max(stopped, found[0][i].stopped.x);
     }
     EXPECT_GT(stopped, 0.3F) << "where they touch";
+}
+
+TEST(Lighting, OnlyTranslucentSurfacesAskForLightFromBehind) {
+    const Mesh mesh = plate(0.1F, 0.002F, {0.0F, 0.2F, 0.0F});
+    GlbScene scene = scene_of(mesh);
+    const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
+    const auto found = [&] {
+        const DrawList list = draw_list(scene, in_turn);
+        return ambient_light(list, lights, shadow_maps(list, lights, 128, in_turn), in_turn)[0];
+    };
+    const std::vector<Ambient> opaque = found();
+    scene.materials[0].transmission.factor = 0.5;
+    const std::vector<Ambient> thin = found();
+    for (std::size_t i = 0; i < thin.size(); ++i) {
+        EXPECT_EQ(opaque[i].behind, glm::vec3(0.0F));
+        EXPECT_EQ(opaque[i].stopped_behind, glm::vec3(0.0F));
+        EXPECT_EQ(thin[i].arriving, opaque[i].arriving);
+        // Nothing is in the way of a level plate, so what one face is lit by is behind the other.
+        glm::vec3 behind(0.0F);
+        for (const Light& light : lights)
+            behind += light.strength * std::max(-glm::dot(mesh.normals[i], light.direction), 0.0F);
+        EXPECT_NEAR(glm::distance(thin[i].behind + thin[i].stopped_behind, behind), 0.0F, 1e-4F);
+        // At the rim some of it leaves through the rim.
+        const glm::vec3& at = mesh.positions[i];
+        if (std::max(std::abs(at.x), std::abs(at.z)) < 0.03F) {
+            EXPECT_GT(thin[i].behind.x, 0.95F * behind.x);
+        }
+    }
 }
 
 }  // namespace

@@ -47,6 +47,18 @@ TEST(Render, LightComesFromTheUpperLeft) {
     EXPECT_GT(pixel(image, 36, 28)[0], pixel(image, 62, 62)[0] + 60);
 }
 
+TEST(Render, AThinBallIsBrighterInItsShadeAndAnOpaqueOneUnchanged) {
+    const Mesh mesh = ball(1.0F, {0.0F, 9.0F, 0.0F});
+    GlbScene scene = scene_of(mesh);
+    const RgbaImage opaque = rendered(scene, square(96, View::front));
+    scene.materials[0].transmission = {0.5, glm::dvec3(1.0), {}, 0.0};
+    EXPECT_EQ(rendered(scene, square(96, View::front)).rgba, opaque.rgba) << "too thick";
+    scene.materials[0].transmission.mean = 1.0;
+    const RgbaImage thin = rendered(scene, square(96, View::front));
+    EXPECT_GT(pixel(thin, 70, 72)[0], pixel(opaque, 70, 72)[0] + 10);
+    EXPECT_LT(pixel(thin, 36, 28)[0], pixel(opaque, 36, 28)[0]);
+}
+
 // Samples on triangles of one smooth surface are shaded once, whichever triangles they are on.
 TEST(Render, FinerTrianglesOfABallChangeItsPictureLittle) {
     const Mesh coarse = ball(1.0F, {0.0F, 9.0F, 0.0F}, 96, 48);

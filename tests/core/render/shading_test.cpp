@@ -50,6 +50,43 @@ TEST(Shading, BlackMattSkinReflectsLittleAndASlimyOneMore) {
     EXPECT_GT(reflected(point, look, studio, 0).y, matt + 0.005F);
 }
 
+TEST(Shading, ThinFleshLetsLightFromBehindThroughUnlessOtherFleshStopsIt) {
+    const Mesh mesh = plate(0.1F, 0.002F);
+    GlbScene scene = scene_of(mesh);
+    const std::vector<Light> above{{glm::vec3(0, 1, 0), glm::vec3(1.0F)}};
+    SurfacePoint lower;  // in the middle of the lower face
+    lower.at = {0.0F, -0.001F, 0.0F};
+    lower.normal = lower.smooth_normal = lower.to_camera = glm::vec3(0, -1, 0);
+    const auto seen = [&](float transmission) {
+        const DrawList list = draw_list(scene, in_turn);
+        const std::vector<ShadowMap> shadows = shadow_maps(list, above, 64, in_turn);
+        lower.transmission = transmission;
+        lower.tint = glm::vec3(1.0F, 0.5F, 0.25F);
+        return reflected(lower, {}, {above, shadows, 1}, 0);
+    };
+    const glm::vec3 opaque = seen(0.0F), thin = seen(0.5F), thinner = seen(1.0F);
+    EXPECT_EQ(opaque, glm::vec3(0.0F));
+    EXPECT_GT(thin.x, 0.3F);
+    EXPECT_NEAR(thin.y / thin.x, 0.5F, 1e-3F);
+    EXPECT_NEAR(thinner.x / thin.x, 2.0F, 1e-3F);
+    // A second plate above stops most of it.
+    scene.nodes.push_back({.name = "upper", .mesh = 0, .translation = {0.0, 0.05, 0.0}});
+    EXPECT_LT(seen(0.5F).x, 0.7F * thin.x);
+    EXPECT_GT(seen(0.5F).x, 0.0F);
+}
+
+TEST(Shading, ThinFleshReflectsLessThanThickFleshOfItsColour) {
+    const OpenStudio open;
+    SurfacePoint point;
+    point.normal = point.smooth_normal = point.to_camera = open.lights.front().direction;
+    const Lamps studio{open.lights, open.shadows, 1};
+    const float thick = reflected(point, {}, studio, 0).y;
+    point.transmission = 0.5F;
+    const float thin = reflected(point, {}, studio, 0).y;
+    EXPECT_LT(thin, thick);
+    EXPECT_GT(thin, 0.5F * thick);
+}
+
 TEST(Shading, WithoutLightOnlyWhatGlowsIsSeen) {
     SurfacePoint point;
     point.base_color = glm::vec3(0.5F);
