@@ -74,6 +74,28 @@ function measured(page) {
 const brightness = ({ red, green, blue }) => 0.2126 * red + 0.7152 * green + 0.0722 * blue;
 const warmth = ({ red, blue }) => red / blue;
 
+test("light passes through the thin flesh of a rich file alone", async (t) => {
+    const seen = async (species, materials) => {
+        const query = `species=${species}&${plain}&light=backlight&materials=${materials}`;
+        const { page, log } = await open(t, query);
+        const found = brightness(await measured(page));
+        expectNoProblems(log);
+        await page.close();
+        return found;
+    };
+    const [full, rich] = [
+        await seen("mycena_sanguinolenta", "full"),
+        await seen("mycena_sanguinolenta", "rich"),
+    ];
+    // The means are of the whole stage, of which the slender bonnet is little.
+    assert.ok(rich > full + 0.04, `${rich} ${full}`);
+    const [opaque, stillOpaque] = [
+        await seen("trametes_versicolor", "full"),
+        await seen("trametes_versicolor", "rich"),
+    ];
+    assert.ok(Math.abs(stillOpaque - opaque) < 0.01, `${stillOpaque} ${opaque}`);
+});
+
 test("each light changes brightness and colour as named, and survives a reload", async (t) => {
     const { page, log } = await open(t, agaric);
     assert.equal(await page.locator("#light").inputValue(), "daylight");

@@ -17,6 +17,7 @@ import { windOf, type WindExtras } from "../clients/three/wind";
 import type { DraftTextures } from "./draft_textures";
 import { levelNodesOf } from "./levels";
 import { outline } from "./solids";
+import { translucency } from "./translucency";
 
 export interface Counts {
     triangles: number;
@@ -40,7 +41,7 @@ function materialsOf(mesh: Mesh): Material[] {
 }
 
 export function texturesOf(model: Object3D): Set<Texture> {
-    const textures = new Set<Texture>();
+    const textures = new Set(model.userData["thinness"] as Set<Texture> | undefined);
     const materials = new Set(modelVariants(model)?.materials);
     for (const mesh of meshesOf(model)) {
         for (const material of materialsOf(mesh)) materials.add(material);
@@ -107,6 +108,8 @@ export async function parseModel(
 ): Promise<Object3D> {
     const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
     const linkedImages = new Map<string, string>();
+    const thinness = new Set<Texture>();
+    loader.register(translucency(thinness));
     if (sharedTextures) loader.register(sharedTextures.plugin(linkedImages, from));
     const file = await loader.parseAsync(bytes, new URL(".", from).href);
     const { scene } = file;
@@ -115,6 +118,7 @@ export async function parseModel(
     scene.userData["wind"] = windOf(file.asset);
     scene.userData["variants"] = new MaterialVariants(file);
     scene.userData["linkedImages"] = linkedImages;
+    scene.userData["thinness"] = thinness;
     outlineSolids(scene);
     for (const mesh of meshesOf(scene)) {
         if (mesh.geometry.morphAttributes.position) useDerivativeTangents(mesh);

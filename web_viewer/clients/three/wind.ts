@@ -8,7 +8,6 @@ import {
     type IUniform,
     type Material,
     type Object3D,
-    type WebGLProgramParametersWithUniforms,
 } from "three";
 
 /** What a file states about wind, in `asset.extras.wind`. */
@@ -57,6 +56,12 @@ function weightsOf({ channels }: WindExtras): { declarations: string; values: st
  *  displacement in a breeze of this speed, m/s. */
 const gustLength = 8;
 const breeze = 3;
+
+/** What materials compiled before wind was added to them. */
+const ownShaders = new WeakMap<
+    Material,
+    { compile: Material["onBeforeCompile"]; key: string }
+>();
 
 const functions = /* glsl */ `
 uniform float windTime;
@@ -170,8 +175,15 @@ export class Wind {
         const { declarations, values } = weightsOf(extras);
         // A body that hangs by its own displacement swings at this rate, Hz.
         const rate = Math.sqrt(9.81 / Math.max(extras.sway_m, 1e-4)) / (2 * Math.PI);
-        material.customProgramCacheKey = () => `sporeprint wind ${values}`;
-        material.onBeforeCompile = (shader: WebGLProgramParametersWithUniforms) => {
+        // A material may have a shader of its own, and several meshes may share it.
+        const own = ownShaders.get(material) ?? {
+            compile: material.onBeforeCompile.bind(material),
+            key: material.customProgramCacheKey(),
+        };
+        ownShaders.set(material, own);
+        material.customProgramCacheKey = () => `sporeprint wind ${values} ${own.key}`;
+        material.onBeforeCompile = (shader, renderer) => {
+            own.compile(shader, renderer);
             Object.assign(shader.uniforms, {
                 windTime: this.time,
                 windVelocity: { value: this.velocity },
