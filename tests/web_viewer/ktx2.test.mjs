@@ -17,7 +17,9 @@ const files = {
     "levels_and_solids.glb": `mushrooms/amanita_muscaria.glb?${small}&lods=msft&collision=omi`,
     "variants.glb": `mushrooms/boletus_edulis.glb?lod=3&texture_size=512&variants=weather`,
     "trees/instances.glb": `trees/shrub.glb?${small}&${instanced}&image_format=webp_jpg`,
-    "colony.glb": `colonies/mycena_sanguinolenta.glb?${small}&count=5&instancing=gpu&profile=web`,
+    "colony.glb":
+        `colonies/mycena_sanguinolenta.glb?${small}&count=5&instancing=gpu&profile=web` +
+        "&materials=rich",
 };
 let folder;
 let browser;

@@ -1,6 +1,6 @@
 // Light that passes through thin flesh and leaves: a plugin for KHR_materials_diffuse_transmission,
-// which the loader of three.js does not know. The base colour filters that light, as in the files of
-// the service, in which the texture of its colour is that of the base colour.
+// which the loader of three.js does not know. The base colour filters that light, as in the files
+// of the service, in which the texture of its colour is that of the base colour.
 import { Color, NoColorSpace, type Texture, type WebGLProgramParametersWithUniforms } from "three";
 import type { GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 
@@ -25,8 +25,8 @@ uniform vec3 transmissionTint;
 `;
 
 // The shadow of the sun holds far sides, of which a surface that faces away from the sun is one: a
-// larger bias than that of its lit sides keeps its own flesh from shading it. What other flesh stops
-// passes by the same share, since it is about as thin.
+// larger bias than that of its lit sides keeps its own flesh from shading it. What other flesh
+// stops passes by the same share, since it is about as thin.
 const throughFlesh = /* glsl */ `
 float passing = transmissionShare;
 #if defined( THINNESS_MAP ) && defined( USE_MAP )
@@ -35,11 +35,20 @@ float passing = transmissionShare;
 vec3 sunBehind = vec3( 0.0 ), skyBehind = vec3( 0.0 );
 #if NUM_DIR_LIGHTS > 0
     float reached, scattered = 0.25;
+    #if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+        DirectionalLightShadow sunShadow;
+    #endif
     #pragma unroll_loop_start
     for ( int i = 0; i < NUM_DIR_LIGHTS; i ++ ) {
-        reached = saturate( ( scattered - dot( geometryNormal, directionalLights[ i ].direction ) ) / ( 1.0 + scattered ) );
+        reached = scattered - dot( geometryNormal, directionalLights[ i ].direction );
+        reached = saturate( reached / ( 1.0 + scattered ) );
         #if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS )
-        if ( reached > 0.0 && receiveShadow ) reached *= mix( getShadow( directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias - 0.003, directionalLightShadows[ i ].shadowRadius, vDirectionalShadowCoord[ i ] ), 1.0, passing );
+        sunShadow = directionalLightShadows[ i ];
+        if ( reached > 0.0 && receiveShadow ) {
+            reached *= mix( getShadow( directionalShadowMap[ i ], sunShadow.shadowMapSize,
+                sunShadow.shadowIntensity, sunShadow.shadowBias - 0.003, sunShadow.shadowRadius,
+                vDirectionalShadowCoord[ i ] ), 1.0, passing );
+        }
         #endif
         sunBehind += reached * directionalLights[ i ].color;
     }
@@ -56,8 +65,10 @@ vec3 sunBehind = vec3( 0.0 ), skyBehind = vec3( 0.0 );
     skyBehind += getIBLIrradiance( - geometryNormal );
 #endif
 vec3 passed = passing * BRDF_Lambert( transmissionTint * diffuseColor.rgb );
-reflectedLight.directDiffuse = reflectedLight.directDiffuse * ( 1.0 - passing ) + passed * sunBehind;
-reflectedLight.indirectDiffuse = reflectedLight.indirectDiffuse * ( 1.0 - passing ) + passed * skyBehind;
+reflectedLight.directDiffuse *= 1.0 - passing;
+reflectedLight.directDiffuse += passed * sunBehind;
+reflectedLight.indirectDiffuse *= 1.0 - passing;
+reflectedLight.indirectDiffuse += passed * skyBehind;
 `;
 
 /** Returns what makes the shader of a material let light through. */
@@ -83,8 +94,8 @@ function shaderOf(
     };
 }
 
-/** Returns a loader plugin that lets light through the materials of a file, and adds their images of
- *  thinness to `textures`, because no material has them as a member. */
+/** Returns a loader plugin that lets light through the materials of a file, and adds their images
+ *  of thinness to `textures`, because no material has them as a member. */
 export function translucency(textures: Set<Texture>): (parser: GLTFParser) => GLTFLoaderPlugin {
     return (parser) => ({
         name: extension,

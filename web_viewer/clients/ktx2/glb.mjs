@@ -12,7 +12,8 @@ const compressions = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 const formats = ["EXT_texture_webp", "EXT_texture_avif"];
 const basis = "KHR_texture_basisu";
 /** Names of textures that hold colours; all others hold numbers. */
-const colours = /^(baseColor|emissive|sheenColor|specularColor|diffuse|specularGlossiness)Texture$/;
+const colours =
+    /^(baseColor|emissive|(sheen|specular|diffuseTransmission)Color|diffuse|specularGlossiness)Texture$/;
 
 /** Returns the JSON and the binary chunk of a GLB. */
 export function readGlb(bytes) {

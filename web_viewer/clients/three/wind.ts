@@ -58,10 +58,7 @@ const gustLength = 8;
 const breeze = 3;
 
 /** What materials compiled before wind was added to them. */
-const ownShaders = new WeakMap<
-    Material,
-    { compile: Material["onBeforeCompile"]; key: string }
->();
+const ownShaders = new WeakMap<Material, { compile: Material["onBeforeCompile"]; key: string }>();
 
 const functions = /* glsl */ `
 uniform float windTime;
