@@ -13,6 +13,7 @@
 #include "core/math/elementary.h"
 #include "core/mesh/thickness.h"
 #include "core/render/triangle_raster.h"
+#include "core/surface/charts.h"
 #include "core/surface/codecs.h"
 
 namespace sporeprint {
@@ -112,9 +113,16 @@ Thinness thinness_of(const Mesh& mesh, double translucency, int side, const Para
 Flesh flesh_of(const Individual& individual, const Parallel& parallel) {
     const double translucency = individual.model.material.translucency;
     if (!(translucency > 0.0)) return {};
-    return {thinness_of(body_mesh(individual, DetailLevel(measured_lod)), translucency,
-                        thinness_side, parallel),
-            tint_of(individual.model.surface.flesh.colour)};
+    Individual bare = individual;
+    bare.grounds.clear();
+    Thinness thinness = thinness_of(body_mesh(bare, DetailLevel(measured_lod)), translucency,
+                                    thinness_side, parallel);
+    // Soil and litter are no flesh, however thin.
+    for (int y = 0; y < thinness_side; ++y)
+        for (int x = 0; x < thinness_side; ++x)
+            if (part_at((x + 0.5) / thinness_side, (y + 0.5) / thinness_side) == Part::ground)
+                thinness.shares[static_cast<std::size_t>(y * thinness_side + x)] = 0;
+    return {std::move(thinness), tint_of(individual.model.surface.flesh.colour)};
 }
 
 GlbTransmission transmission_of(const Individual& individual, const FileOptions& file,

@@ -237,7 +237,7 @@ inline constexpr Info share_info{
         "and with them warts, scales and gills at the same places; the shapes still differ.",
     .group = "file"};
 
-/// What the foot of a stem shows.
+/// What is at the foot of a stem.
 enum class Base { natural, clean };
 
 constexpr const char* name(Base base) {
@@ -253,8 +253,9 @@ constexpr const char* name(Base base) {
 inline constexpr Info base_info{
     .name = "base",
     .doc =
-        "natural: soil and the felt of the mycelium cling to the foot of the stem, as much as is "
-        "usual for the species; clean: as if it were washed."};
+        "natural: the foot of the stem stands in a clod of soil with litter on it and strands of "
+        "mycelium in it, and soil clings to the stem, as is usual for the species; clean: as if "
+        "it were washed."};
 
 inline constexpr Info variants_info{
     .name = "variants",

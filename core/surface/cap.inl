@@ -186,6 +186,9 @@ HWY_INLINE bool uses_turn(const CapPlan& plan) {
     return plan.fibrils > 0.0F || plan.striae > 0.0F || plan.skin.fibres;
 }
 
+/// Share of the meridian from which a cap that passes into the stem takes on its skin.
+constexpr float joined_from = 0.7F;
+
 /// Returns a texel of the cap. fields: values of cap_fields() at this texel
 HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
@@ -206,17 +209,30 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     const VF fine = cap_bumps(plan, p, fields, texel.height);
     // One side of a cap stands in more sun and rain than the other.
     const VF side = p.x * set(plan.drift_x) + p.y * set(plan.drift_y) + uneven * set(0.3F);
-    VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F)) +
+    VF shift = set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F)) +
                side * set(plan.ramp_drift);
+    VF lightness = set(plan.lightness);
+    // How far a joined cap is still one of its own: 0 at the stem.
+    const VF own =
+        plan.joined > 0.0F ? one - smooth(p.rho, joined_from, 1.0F / (1.0F - joined_from)) : one;
+    if (plan.joined > 0.0F) {
+        shift = shift * own;
+        lightness = one + (lightness - one) * own;
+    }
+    VF along = p.rho + shift;
     CapZone zone{set(0.0F), set(0.0F)};
     if (plan.zones > 0.0F) {
         zone = cap_zone_of(plan, fields);
         along = along + zone.shift;
     }
     texel.colour = ramp_colour(plan, unit(along));
-    texel.colour.r = texel.colour.r * (set(plan.tint.r) + side * set(plan.drift.r));
-    texel.colour.g = texel.colour.g * (set(plan.tint.g) + side * set(plan.drift.g));
-    texel.colour.b = texel.colour.b * (set(plan.tint.b) + side * set(plan.drift.b));
+    Rgb tint{set(plan.tint.r) + side * set(plan.drift.r),
+             set(plan.tint.g) + side * set(plan.drift.g),
+             set(plan.tint.b) + side * set(plan.drift.b)};
+    if (plan.joined > 0.0F) tint = mix(rgb(plan.joined_tint), tint, own);
+    texel.colour.r = texel.colour.r * tint.r;
+    texel.colour.g = texel.colour.g * tint.g;
+    texel.colour.b = texel.colour.b * tint.b;
     texel.shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
                   set(0.10F) * fine;
     texel.occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
@@ -228,14 +244,14 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
                        set(plan.patch_grain) * grain.tone,
                    plan.patch_threshold - 0.5F / plan.patch_slope, plan.patch_slope) *
             unit(set(0.94F) + set(0.25F) * mottle + set(plan.patch_grain) * grain.tone) *
-            set(plan.patch_weight);
+            set(plan.patch_weight) * own;
         texel.colour = mix(texel.colour, rgb(plan.patch_colour), patch);
         texel.roughness = texel.roughness + patch * set(0.05F);
         texel.height = texel.height + patch * set(0.0012F);
     }
     if (plan.zones > 0.0F) add_cap_zones(plan, zone, fields, texel);
     if (plan.streaks > 0.0F) {
-        texel.shade = texel.shade * (one - set(0.55F * plan.streaks) * fields[cap_streak]);
+        texel.shade = texel.shade * (one - set(0.55F * plan.streaks) * fields[cap_streak] * own);
         texel.height = texel.height - fields[cap_streak] * set(0.0015F * plan.streaks);
     }
     if (plan.fibrils > 0.0F || plan.striae > 0.0F) {
@@ -250,7 +266,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     }
     if (plan.veins > 0.0F) add_cap_veins(plan, p, fields, texel);
     Texel out;
-    out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)) * set(plan.lightness));
+    out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)) * lightness);
     out.height = texel.height;
     out.roughness = texel.roughness;
     out.occlusion = texel.occlusion;

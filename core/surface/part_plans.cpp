@@ -121,6 +121,11 @@ DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
     return disc;
 }
 
+/// Returns the individual's own hue as the stem has it.
+Light stem_tint(const PaintParams& params) {
+    return tint_of(hue_of(params.seed), 0.6 * params.surface.cap.colour_drift);
+}
+
 CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     const CapSurface& cap = params.surface.cap;
     CapPlan plan;
@@ -160,6 +165,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     const Hue hue = hue_of(params.seed);
     plan.tint = tint_of(hue, cap.colour_drift);
     const SineCosine side = sine_cosine(2.0 * pi * hue.turn);
+    plan.joined = params.metrics.hymenium_arc > quantised_length(0.0) ? 0.0F : 1.0F;
+    plan.joined_tint = stem_tint(params);
     plan.drift_x = single(side.cosine);
     plan.drift_y = single(side.sine);
     plan.drift = {single(0.14 * cap.colour_drift), 0.0F, single(-0.22 * cap.colour_drift)};
@@ -308,7 +315,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.fields = 3U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << stem_bump;
     if (!stem.image.empty()) return plan;
-    plan.tint = tint_of(hue_of(params.seed), 0.6 * params.surface.cap.colour_drift);
+    plan.tint = stem_tint(params);
     plan.skin =
         skin_plan(stem.skin, {circumference, circumference * round, circumference * along, true},
                   1.0, seeds<1>(params.seed, purposes::skin_grain)[0] + 0x51ED270BU);

@@ -135,6 +135,10 @@ struct CapPlan {
     std::array<Light, most_ramp_steps> step{};
     int steps = 0;
     float lightness = 1.0F;
+    /// 1 where the cap passes into the stem without an edge, as on clubs and corals: towards the rim
+    /// it takes the tint of the stem and loses what ends at the border of its chart.
+    float joined = 0.0F;
+    Light joined_tint = {1.0F, 1.0F, 1.0F};
     float ramp_noise = 0.0F;
     float fibrils = 0.0F;
     int fibril_count = 8;

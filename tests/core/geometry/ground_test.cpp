@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/geometry/budget.h"
 #include "core/math/elementary.h"
 #include "core/mesh/measure.h"
 #include "tests/support/meshes.h"
@@ -160,6 +161,41 @@ TEST(Ground, ACleanBaseHasNone) {
             const Mesh mesh = mesh_of(order);
             EXPECT_EQ(part_of(mesh, Part::ground).positions.empty(), base == Base::clean) << id;
         }
+}
+
+/// Returns the positions of a mesh without those of the ground.
+std::vector<glm::vec3> without_ground(const Mesh& mesh) {
+    std::vector<glm::vec3> found;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        if (part_at(mesh.texture_coordinates[i].x, mesh.texture_coordinates[i].y) != Part::ground)
+            found.push_back(mesh.positions[i]);
+    return found;
+}
+
+// It is the first that is left out where triangles are scarce, so it costs nothing else any detail.
+TEST(Ground, ItIsAddedToAllSpeciesAndChangesNothingElse) {
+    for (const std::string& id : species_ids())
+        for (const double age : std::vector{0.6, 0.05, 1.0, 0.3})
+            for (int lod = 0; lod < 4; ++lod) {
+                if (age != 0.6 && lod != 1) continue;
+                const MushroomSpec order = textured(order_of(id, age, 5, lod));
+                const Mesh clean = mesh_of(order), natural = mesh_of(on_ground(order));
+                expect_valid(natural);
+                EXPECT_LE(natural.indices.size() / 3, triangle_limit(DetailLevel(lod)))
+                    << id << ' ' << lod;
+                if (is_branched(atlas().find(id)->species)) continue;
+                EXPECT_EQ(without_ground(natural), clean.positions) << id << ' ' << lod;
+            }
+}
+
+TEST(Ground, OfAMixItChangesWithTheWeights) {
+    for (const int weight : {0, 1, 500, 1000}) {
+        MushroomSpec order = textured(on_ground(order_of("boletus_edulis", 0.6, 3, 0)));
+        order.mix = {{"boletus_edulis", 1000 - weight}, {"marasmius_oreades", weight}};
+        const Mesh mesh = mesh_of(order);
+        expect_valid(mesh);
+        EXPECT_FALSE(part_of(mesh, Part::ground).positions.empty());
+    }
 }
 
 // The soil lies round a sac, not inside it.

@@ -209,14 +209,18 @@ TEST(Painting, TheFootIsWhatIsBelowTheGround) {
 }
 
 TEST(Painting, ACleanBaseHasNeitherSoilNorFelt) {
-    MushroomSpec spec = painted(order_of("amanita_muscaria", 0.6, 1));
+    MushroomSpec spec = painted(on_ground(order_of("amanita_muscaria", 0.6, 1)));
     const PaintParams natural = paint_spec_of(spec).at(0).painting;
     EXPECT_GT(natural.surface.stem.soil, 0.0);
     spec.params.base = Base::clean;
     PaintParams clean = paint_spec_of(spec).at(0).painting;
     EXPECT_EQ(clean.surface.stem.soil, 0.0);
     EXPECT_EQ(clean.surface.stem.mycelium, 0.0);
+    // Nor colours of litter, which would cause another key of its images.
+    EXPECT_EQ(clean.ground, PaintedGround{});
+    EXPECT_NE(natural.ground, clean.ground);
     clean.surface.stem = natural.surface.stem;
+    clean.ground = natural.ground;
     EXPECT_EQ(clean, natural);
 }
 
