@@ -30,7 +30,10 @@ Cost Leaves::cost_of_painting(const LeafSpec& spec, const Atlas&) {
 
 Cost Leaves::cost_of_paint(const LeafPaint& paint) {
     const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
-    const auto vertices = static_cast<std::uint64_t>(most_of_leaf(paint.venation, 0).vertices);
+    // Images show one lamina, also those of a compound leaf.
+    LeafShape simple;
+    simple.venation = paint.venation;
+    const auto vertices = static_cast<std::uint64_t>(most_of_leaf(simple, 0).vertices);
     return {.leaf_atlases = 1,
             .leaf_rows = side,
             .leaf_texels = 3 * side * side,

@@ -72,7 +72,7 @@ LeafSpec at_level(LeafSpec spec) {
     LeafParams& params = spec.params;
     if (!params.triangles) return spec;
     params.lod = nearest_level(*params.triangles, [&](int lod) {
-        return static_cast<double>(most_of_leaf(params.shape.venation, lod).triangles);
+        return static_cast<double>(most_of_leaf(params.shape, lod).triangles);
     });
     params.triangles.reset();
     return spec;
@@ -96,7 +96,7 @@ Estimate estimate(const LeafSpec& spec) {
     refuse_impossible(params.file, params.textures);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
-        const LeafCount most = most_of_leaf(params.shape.venation, lod);
+        const LeafCount most = most_of_leaf(params.shape, lod);
         add_level(e, most.vertices, most.triangles, params.textures, params.file);
     }
     add_images(e, params);

@@ -65,6 +65,12 @@ std::vector<glm::dvec2> simplified(std::vector<glm::dvec2> half, const glm::dvec
 }  // namespace
 
 double lamina_area(const LeafShape& shape) {
+    if (shape.leaflets.count > 0) {
+        double squares = 0.0;
+        for (const PlacedLeaflet& one : placed_leaflets(shape.leaflets))
+            squares += one.size * one.size;
+        return squares * lamina_area(leaflet_of(shape)) * shape.length * shape.length;
+    }
     return area_of(border_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)))) *
            shape.length * shape.length;
 }
@@ -119,14 +125,56 @@ void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
 
 }  // namespace
 
-Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
-                    Preserved preserved) {
+namespace {
+
+// A leaf to simplify: itself, or the star that stands for a compound one.
+struct Model {
+    LeafShape shape;
+    LeafChart chart;
+    double area;  // of the lamina, in squares of its length
+    bool is_star = false;
+};
+
+// Longest side veins of a star, in edges of its middle vein.
+constexpr double widest_star = 3.0;
+
+Model model_of(const LeafShape& shape) {
+    const double area = lamina_area(shape) / (shape.length * shape.length);
+    if (shape.leaflets.count == 0)
+        return {shape, chart_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0))), area};
+    Model model{star_of(shape), {}, area, true};
+    // The star has the area of all leaflets as far as it can be wide, and shows the middle of the image of one.
+    Venation& veins = model.shape.venation;
+    const auto border_at = [&] { return border_of(lamina_of(veins, 1)); };
+    veins.side_length =
+        std::clamp(veins.side_length * area / area_of(border_at()), 0.1, widest_star);
+    // Many long leaflets cover each other.
+    model.area = std::min(area, area_of(border_at()));
+    const auto half_width = [](const std::vector<glm::dvec2>& border) {
+        double half = 0.0;
+        for (const glm::dvec2& place : border) half = std::max(half, place.x);
+        return half;
+    };
+    const Venation& leaflet = shape.venation;
+    const Lamina shown = lamina_of(leaflet, leaf_steps(leaflet, 0));
+    const LeafChart chart = chart_of(shown);
+    const double share =
+        std::min(0.9, 0.8 * half_width(border_of(shown)) / half_width(border_at()));
+    const glm::dvec2 middle(0.0, 0.5);
+    model.chart = {middle + (chart.corner - middle) / share, chart.scale * share};
+    return model;
+}
+
+Shell simplified_shell(const Model& model, const Bending& bent, std::size_t triangles,
+                       Preserved preserved) {
+    const LeafShape& shape = model.shape;
     const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
     // The border is straight between the ends of veins; otherwise all corners would be spent on the
     // bays of a frond.
     Venation plain = shape.venation;
-    plain.sinus = plain.teeth = 0.0;
-    const Lamina outline = lamina_of(plain, plain.lobes.value == 1 ? 2 : 1);
+    plain.teeth = 0.0;
+    if (!model.is_star) plain.sinus = 0.0;
+    const Lamina outline = lamina_of(plain, plain.lobes.value == 1 && !model.is_star ? 2 : 1);
     const Lobe& middle = outline.lobes[outline.lobes.size() / 2];
     glm::dvec2 centre(0.0, outline.lobes.size() > 1 ? 0.3 : 0.5);
     const glm::dvec2 tip = middle.place(0, middle.reach, 0.0);
@@ -141,15 +189,14 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
     for (std::size_t i = border.size() - 2; i > 0; --i)
         border.emplace_back(-border[i].x, border[i].y);
     const double grown =
-        preserved == Preserved::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
-    const LeafChart chart = chart_of(lamina);
+        preserved == Preserved::area ? std::sqrt(model.area / area_of(border)) : 1.0;
     Shell shell;
     const auto count = static_cast<std::uint32_t>(border.size());
     for (const bool upper : {true, false}) {
         for (const glm::dvec2& place : border)
-            shell.add(bent.at(grown * place, 0.0), chart.texture_point(place, upper));
+            shell.add(bent.at(grown * place, 0.0), model.chart.texture_point(place, upper));
         const double lift = upper ? 0.5 * shape.thickness : -0.5 * shape.thickness;
-        shell.add(bent.at(grown * centre, lift), chart.texture_point(centre, upper));
+        shell.add(bent.at(grown * centre, lift), model.chart.texture_point(centre, upper));
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t next = (i + 1) % count, below = count + 1;
@@ -159,17 +206,18 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
     return shell;
 }
 
-namespace {
-
 /// Returns the flat leaf of two or four triangles.
 ///
 /// share  its area by that of the lamina
-Shell flat_shell(const LeafShape& shape, std::size_t triangles, double share) {
+Shell flat_shell(const Model& model, std::size_t triangles, double share) {
     // A needle is as thick as broad: its plane is that of its middle surface.
-    LeafShape thin = shape;
-    thin.thickness = 0.0;
-    const Mesh fine =
-        foliage_shell(thin, Bending(thin), most_foliage_triangles, Preserved::area).mesh(1.0);
+    Model thin = model;
+    thin.shape.thickness = 0.0;
+    const auto finest = [](const Model& one) {
+        return simplified_shell(one, Bending(one.shape), most_foliage_triangles, Preserved::area)
+            .mesh(1.0);
+    };
+    const Mesh fine = finest(thin);
     const SurfaceMoments of = surface_moments(fine);
     const PrincipalAxes axes = principal_axes(of.covariance);
     // A leaf may be broader than long.
@@ -198,21 +246,16 @@ Shell flat_shell(const LeafShape& shape, std::size_t triangles, double share) {
     // It shows a part of the image that is a little larger than itself: the border of a lamina, with
     // the pale tips of needles, is a larger part of its area than of a kite's.
     constexpr double shown = 1.15;
-    const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
-    LeafShape pressed = thin;
-    pressed.curl_deg = pressed.fold_deg = pressed.wave = 0.0;
-    const double middle = surface_moments(foliage_shell(pressed, Bending(pressed),
-                                                        most_foliage_triangles, Preserved::area)
-                                              .mesh(1.0))
-                              .middle.z;
-    const LeafChart chart = chart_of(lamina);
+    Model pressed = thin;
+    pressed.shape.curl_deg = pressed.shape.fold_deg = pressed.shape.wave = 0.0;
+    const double middle = surface_moments(finest(pressed)).middle.z;
     const double side = across.x < 0.0 ? 1.0 : -1.0;
     Shell shell;
     for (const bool upper : {true, false})
         for (const glm::dvec2& corner : corners)
-            shell.add(
-                of.middle + corner.x * along + corner.y * across,
-                chart.texture_point({shown * side * corner.y, middle + shown * corner.x}, upper));
+            shell.add(of.middle + corner.x * along + corner.y * across,
+                      model.chart.texture_point(
+                          {shown * side * corner.y, middle + shown * corner.x}, upper));
     const auto count = static_cast<std::uint32_t>(corners.size());
     for (std::uint32_t i = 2; i < count; ++i) {
         shell.triangles.push_back({0, i - 1, i});
@@ -223,13 +266,20 @@ Shell flat_shell(const LeafShape& shape, std::size_t triangles, double share) {
 
 }  // namespace
 
+Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
+                    Preserved preserved) {
+    return simplified_shell(model_of(shape), bent, triangles, preserved);
+}
+
 Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {
     throw_if_invalid(shape);
     if (triangles == 2 || triangles == 4)
-        return flat_shell(shape, triangles, share).mesh(shape.length);
+        return flat_shell(model_of(shape), triangles, share).mesh(shape.length);
     if (triangles < 4 || triangles > most_foliage_triangles || triangles % 4 != 0)
         throw InvalidInput("/triangles", std::to_string(triangles) + " is not 2, 4, 8, 12 or 16");
-    return foliage_shell(shape, Bending(shape), triangles, Preserved::area).mesh(shape.length);
+    const Model model = model_of(shape);
+    return simplified_shell(model, Bending(model.shape), triangles, Preserved::area)
+        .mesh(shape.length);
 }
 
 }  // namespace sporeprint

@@ -21,7 +21,8 @@ namespace sporeprint {
 namespace {
 
 constexpr double petiole_radius = 0.011, petiole_reach = 0.12;  // in lengths of the lamina
-constexpr double faces_height = 0.9;  // of the image, above the petiole's strip
+constexpr double bow_variation = 0.05;  // of individuals, as a standard deviation
+constexpr double faces_height = 0.9;    // of the image, above the petiole's strip
 
 struct Level {
     int steps;
@@ -39,7 +40,7 @@ Level level_of(const Venation& venation, int lod) {
         corners += (j == 0 ? 2 : 4) * (venation.sinus > 0.0 ? 2 : 1) * nodes;
     }
     if (lod == 0) {
-        if (corners <= 30) return {4, {0.0, 0.1, 0.4, 0.75, 1.0}, 2, 6, 5};
+        if (corners <= 30) return {6, {0.0, 0.12, 0.55, 1.0}, 2, 6, 5};
         if (corners <= 60) return {3, {0.0, 0.15, 0.6, 1.0}, 1, 6, 5};
         if (corners <= 80) return {3, {0.0, 0.3, 1.0}, 1, 6, 5};
         return {2, {0.0, 0.3, 1.0}, 1, 6, 5};
@@ -153,10 +154,8 @@ LeafChart chart_of(const Lamina& lamina) {
 
 int leaf_steps(const Venation& venation, int lod) { return level_of(venation, lod).steps; }
 
-namespace {
-
-// Returns both faces on the grid of a level.
-Shell lamina_shell(const LeafShape& shape, const Bending& bent, const Level& level) {
+Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod) {
+    const Level level = level_of(shape.venation, lod);
     const Lamina lamina = lamina_of(shape.venation, level.steps);
     const LeafChart chart = chart_of(lamina);
     const LaminaMesh flat = lamina_mesh(lamina, level.rows, level.fill);
@@ -177,6 +176,8 @@ Shell lamina_shell(const LeafShape& shape, const Bending& bent, const Level& lev
         shell.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
     return shell;
 }
+
+namespace {
 
 /// Scales a lamina of few corners, which approximates curl and waves coarsely, to the bounding box
 /// of another; the root stays in place.
@@ -218,9 +219,14 @@ Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
     if (lod < 0 || lod >= leaf_lods)
         throw InvalidInput("/lod",
                            std::to_string(lod) + " is outside 0.." + std::to_string(leaf_lods - 1));
+    if (shape.leaflets.count > 0) {
+        Shell compound = compound_shell(shape, lod);
+        for (glm::dvec3& place : compound.places) place.z += shape.petiole;
+        return compound.mesh(shape.length * size);
+    }
     const Level level = level_of(shape.venation, lod);
     const Bending bent(shape);
-    Shell shell = lamina_shell(shape, bent, level);
+    Shell shell = lamina_shell(shape, bent, lod);
     if (lod + 1 == leaf_lods && shell.triangles.size() > most_foliage_triangles) {
         Shell far = foliage_shell(shape, bent, most_foliage_triangles, Preserved::extent);
         fit_to(shell, far);
@@ -231,7 +237,9 @@ Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
     return shell.mesh(shape.length * size);
 }
 
-LeafCount most_of_leaf(const Venation& venation, int lod) {
+LeafCount most_of_leaf(const LeafShape& shape, int lod) {
+    if (shape.leaflets.count > 0) return count_of_compound(shape, lod);
+    const Venation& venation = shape.venation;
     const Level level = level_of(venation, lod);
     const auto sides = static_cast<std::uint64_t>(level.petiole_sides);
     const auto rings = static_cast<std::uint64_t>(level.petiole_rings);
@@ -288,6 +296,7 @@ LeafShape individual_leaf(const LeafShape& shape, std::uint32_t seed, double var
         within(info_of<Venation>("side_length"), veins.side_length * exponential(0.1 * longer));
     veins.side_deg = turned(info_of<Venation>("side_deg"), veins.side_deg, 2.5);
     veins.vein_deg = turned(info_of<Venation>("vein_deg"), veins.vein_deg, 2.5);
+    leaf.bow = turned(info_of<LeafShape>("bow"), leaf.bow, bow_variation);
     // Angles that would leave too little space for the lobes keep their original values.
     std::vector<Problem> problems;
     veins.check("", problems);

@@ -7,6 +7,7 @@
 
 #include "core/mesh/mesh.h"
 #include "core/plant/leaf_colour.h"
+#include "core/plant/leaflets.h"
 #include "core/plant/venation.h"
 
 namespace sporeprint {
@@ -22,6 +23,8 @@ struct LeafShape {
     double fold_deg = 10.0;
     double wave = 0.2;
     double waves = 2.0;
+    double bow = 0.0;
+    Leaflets leaflets;
 
     static constexpr void fields(auto visit) {
         using L = LeafShape;
@@ -63,6 +66,15 @@ struct LeafShape {
                               .min = 0.5,
                               .max = 6,
                               .doc = "Ups and downs from the root to the tip."});
+        visit(&L::bow, Info{.name = "bow",
+                            .min = -0.4,
+                            .max = 0.4,
+                            .doc = "How far the tip stands beside the line of the petiole, in "
+                                   "lengths of the limb."});
+        visit(&L::leaflets,
+              Info{.name = "leaflets",
+                   .doc = "Leaflets of a compound leaf. Its length and its curl are those of the "
+                          "axis; veins, border, fold and waves those of every leaflet."});
     }
     bool operator==(const LeafShape&) const = default;
 };
@@ -123,9 +135,11 @@ inline constexpr int leaf_lods = 4;
 ///
 /// lod      0: about 2,000 triangles; 1: about 500; 2: the polygon of the source; 3: a fan of
 ///          most_foliage_triangles of the same length and width, or the polygon if it has no more
-///          triangles
+///          triangles. Of a compound leaf each leaflet is 0: the polygon, if all have no more than
+///          most_leaflet_triangles together; 1: a fan; 2 and 3: a kite
 /// size     scale of the whole
-/// returns  two closed pieces: the lamina, with its veins as relief, and the petiole
+/// returns  closed pieces: the lamina, with its veins as relief, and the petiole; or the axis and
+///          each leaflet
 /// throws   InvalidInput with all that check() reports
 [[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod, double size = 1.0);
 
@@ -133,9 +147,13 @@ struct LeafCount {
     std::uint64_t vertices = 0, triangles = 0;
 };
 
+/// The largest number of triangles of all leaflets of a leaf at LOD 0, unless fans have more.
+inline constexpr std::uint64_t most_leaflet_triangles = 6'000;
+
 /// Returns upper bounds of the counts of leaf_mesh(), in nanoseconds; up to six times the actual
-/// counts where few corners are divided among many lobes.
-[[nodiscard]] LeafCount most_of_leaf(const Venation& venation, int lod);
+/// counts where few corners are divided among many lobes. Of a compound leaf they are the counts
+/// themselves, in microseconds.
+[[nodiscard]] LeafCount most_of_leaf(const LeafShape& shape, int lod);
 
 /// Returns the shape of one individual: slightly longer or shorter, more or less curled, with other
 /// angles between its veins.
@@ -153,7 +171,8 @@ inline constexpr std::size_t most_foliage_triangles = 16;
 /// from above, without a petiole (root of the lamina at the origin). Of four triangles it is flat, a
 /// kite on either face, of two one triangle: they have the area and the middle of the leaf of most
 /// triangles and lie in its plane, as slender as it is by the variances of its points, since seen
-/// from far away a leaf is a spot. They need not reach from its root to its tip.
+/// from far away a leaf is a spot. They need not reach from its root to its tip. A compound leaf is a
+/// star of the area of its leaflets.
 ///
 /// triangles  2, 4, 8, 12 or 16
 /// share      area of a leaf of two or four triangles by that of the lamina, greater than 0
@@ -161,7 +180,7 @@ inline constexpr std::size_t most_foliage_triangles = 16;
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
                                 std::size_t triangles = most_foliage_triangles, double share = 1.0);
 
-/// Returns the area of the lamina in its plane, square metres.
+/// Returns the area of the lamina in its plane, of all leaflets of a compound one; square metres.
 [[nodiscard]] double lamina_area(const LeafShape& shape);
 
 }  // namespace sporeprint

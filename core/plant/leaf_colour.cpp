@@ -16,6 +16,9 @@ glm::dvec3 linear(const Colour& colour) {
             srgb_to_linear(colour.b / 255.0)};
 }
 
+// Share of the colour of veins in that of the finest ones.
+constexpr double net_share = 0.3;
+
 glm::dvec3 mixed(const glm::dvec3& a, const glm::dvec3& b, double share) {
     return a + share * (b - a);
 }
@@ -26,11 +29,11 @@ double vein_share(const LeafColours& colours, const LaminaPlace& place) {
     const auto line = [](double distance, double width) {
         return width > 0.0 ? 1.0 - smooth_step(0.25 * width, 0.5 * width, distance) : 0.0;
     };
-    const double main = line(place.from_main, colours.vein_width * (1.0 - 0.75 * place.homothety));
+    const double main = line(place.from_main, colours.vein_width * (1.0 - 0.88 * place.homothety));
     const double side = line(place.from_side, 0.5 * colours.vein_width *
-                                                  std::max(0.0, 1.0 - 0.8 * place.along_side)) *
-                        (1.0 - smooth_step(0.9, 1.05, place.along_side));
-    return std::max(main, 0.8 * side);
+                                                  std::max(0.0, 1.0 - 0.85 * place.along_side)) *
+                        (1.0 - smooth_step(0.8, 1.05, place.along_side));
+    return std::max(main, 0.62 * side);
 }
 
 }  // namespace
@@ -103,6 +106,8 @@ LeafColourMap::Faces LeafColourMap::at(const LaminaPlace& place, double autumn) 
                             autumn * vein_share(seasons_[2].colours, place);
         colour = mixed(colour, seasonal([](const Season& one) { return one.vein; }, 0.0), line);
     }
+    colour = mixed(colour, seasonal([](const Season& one) { return one.vein; }, 0.0),
+                   net_share * place.net);
     const glm::dvec3 pale(0.6 * ((colour.r + colour.g + colour.b) * (1.0 / 3.0)) + 0.3);
     return {colour, mixed(colour, mixed(colour, pale, 0.6), paler_below_)};
 }

@@ -74,6 +74,7 @@ static_assert(well_described<LeafColours>());
 struct LeafPalette {
     LeafColours summer, turning, fallen;
     double paler_below = 0.35;
+    double marks = 0.0;
 
     static constexpr void fields(auto visit) {
         using P = LeafPalette;
@@ -84,6 +85,11 @@ struct LeafPalette {
                                     .min = 0,
                                     .max = 1,
                                     .doc = "How much paler the lower face is."});
+        visit(&P::marks, Info{.name = "marks",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "How much of the limb is marked by insects and fungi: dry "
+                                     "spots with pale rims."});
     }
     bool operator==(const LeafPalette&) const = default;
 };

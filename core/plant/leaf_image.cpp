@@ -16,6 +16,9 @@ namespace sporeprint {
 
 namespace {
 
+// Linear colours of dry marks of insects and fungi and of their rims.
+const glm::dvec3 dry(0.15, 0.085, 0.035), rim(0.36, 0.34, 0.1);
+
 constexpr int finest_row = 512;  // points per row that resolve the veins of a leaf
 
 // Returns a table of sRGB bytes for linear light in 4096 steps: finer than bytes, except for the
@@ -43,6 +46,41 @@ double vein_depth(const LaminaPlace& place) {
     return std::max(main, 0.6 * side);
 }
 
+// Veins of third order from the root to the tip, the share of their distance that each fills, and how
+// far noise bends them; the same of the net between them, which is as much fainter.
+constexpr double rungs = 20.0, rung_width = 0.07, rung_bend = 0.45;
+constexpr double meshes = 62.0, mesh_width = 0.17, mesh_bend = 0.55, mesh_share = 0.5;
+
+double fraction(double x) { return x - std::floor(x); }
+
+// Returns the distance from the nearest integer.
+double from_line(double x) { return std::abs(x - std::floor(x + 0.5)); }
+
+// Returns how far a vein of third order or the net is at a place, 0..1: rungs from side vein to side
+// vein, which begin elsewhere in each field between two of them, and meshes like bricks.
+//
+// field  a number of the field
+double net_at(const LaminaPlace& place, double field, double blotch, double cell) {
+    if (place.affinity >= 1.0) return 0.0;
+    constexpr double golden = 0.6180339887498949;
+    const double rung = line_profile(
+        from_line(rungs * place.height + golden * field + rung_bend * cell + 0.8 * blotch),
+        rung_width);
+    const double row = meshes * place.height + mesh_bend * cell;
+    const double column =
+        meshes * place.abscissa + golden * std::floor(row) + mesh_bend * fraction(3.0 * blotch);
+    const double mesh = line_profile(std::min(from_line(row), from_line(column)), mesh_width);
+    return std::max(rung, mesh_share * mesh) * (1.0 - smooth_step(0.92, 1.0, place.affinity));
+}
+
+// Returns how far a dry mark covers a place, 0..1: where blotches are high, with ragged borders. Below
+// 0 is its pale rim.
+double mark_at(double marks, double blotch, double cell) {
+    if (marks <= 0.0) return 0.0;
+    const double over = blotch + 0.16 * cell - (0.72 - 0.5 * marks);
+    return over > 0.0 ? smooth_step(0.0, 0.05, over) : -smooth_step(-0.07, 0.0, over);
+}
+
 // The coordinates of a place beyond the border.
 constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
 
@@ -67,6 +105,8 @@ class LeafPainter {
           colour_map_(palette),
           autumn_(autumn),
           relief_(shape.relief),
+          net_(shape.venation.net),
+          marks_(palette.marks),
           seed_(seed),
           count_(side),
           points_(std::clamp<std::size_t>(finest_row / side, 1, most_points)),
@@ -303,15 +343,21 @@ class LeafPainter {
                    double& height) const {
         const auto blotch = static_cast<double>(line.spots[point - line.from]);
         const auto cell = static_cast<double>(line.cells[point - line.from]);
-        const LaminaPlace place = sampler_.at({columns_[point], line.y}, line.hint);
+        LaminaPlace place = sampler_.at({columns_[point], line.y}, line.hint);
         const double depth = vein_depth(place);
+        const auto field = static_cast<double>(line.hint.vein + 7 * line.hint.half);
+        if (net_ > 0.0) place.net = net_ * net_at(place, field, blotch, cell);
         const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
-        const LeafColourMap::Faces faces = colour_map_.at(place, own);
+        LeafColourMap::Faces faces = colour_map_.at(place, own);
+        const double mark = mark_at(marks_, blotch, cell);
+        for (glm::dvec3* face : {&faces.upper, &faces.lower})
+            *face +=
+                std::abs(mark) * ((mark > 0.0 ? dry : rim) - *face) * (mark > 0.0 ? 0.85 : 0.4);
         const double shade = share_ * (1.0 + 0.16 * blotch + 0.1 * cell);
         const double rough = 0.08 * cell + 0.2 * autumn_;
         upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.5 + rough);
         lower.add(share_, shade * faces.lower, 1.0, 0.75 + rough);
-        height -= share_ * relief_ * (0.006 * depth - 0.0006 * cell);
+        height -= share_ * relief_ * (0.006 * depth + 0.0011 * place.net - 0.0006 * cell);
     }
 
     void add_petiole(const Line& line, std::size_t point, Texel& texel) const {
@@ -325,7 +371,7 @@ class LeafPainter {
     LeafChart chart_;
     LeafColourMap colour_map_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
-    double autumn_, relief_;
+    double autumn_, relief_, net_, marks_;
     std::uint32_t seed_;
     std::size_t count_;   // texels in a row
     std::size_t points_;  // per texel in each direction, because veins are narrow

@@ -32,7 +32,7 @@ class Bending {
         double up = lift + across * fold_.sine;
         const SineCosine phase = sine_cosine(2.0 * pi * shape_.waves * y);
         up += shape_.wave * 0.6 * (x * x * phase.sine + x * std::abs(x) * phase.cosine);
-        const double side = x * fold_.cosine;
+        const double side = x * fold_.cosine + shape_.bow * y * std::abs(y);
         if (std::abs(curl_) < 1e-9) return {-side, up, y};
         // Relief on the inner side of the bend must not reach the centre of curvature.
         up /= 1.0 + std::max(0.0, -curl_ * up);
@@ -66,6 +66,22 @@ struct Shell {
     /// throws  GenerationError if a vertex has no normal
     [[nodiscard]] Mesh mesh(double scale) const;
 };
+
+/// Returns both faces of a simple leaf on the grid of a level of detail.
+[[nodiscard]] Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod);
+
+/// Returns the leaflets of a compound leaf and its axis at a level of detail, the root of the axis at
+/// the origin.
+[[nodiscard]] Shell compound_shell(const LeafShape& shape, int lod);
+
+/// Returns the counts of compound_shell(), with its axis, in microseconds.
+[[nodiscard]] LeafCount count_of_compound(const LeafShape& shape, int lod);
+
+/// Returns a simple leaf that covers about what a compound one covers: a star of a few corners.
+[[nodiscard]] LeafShape star_of(const LeafShape& compound);
+
+/// Returns a leaflet as a simple leaf of length 1.
+[[nodiscard]] LeafShape leaflet_of(const LeafShape& compound);
 
 /// The property of the lamina that a polygon of few corners preserves.
 enum class Preserved {

@@ -35,6 +35,18 @@ constexpr double tip_tangent_y = 1.2, tip_tangent_x = 0.2;
 // tip of the lobe, rises slowly and falls steeply.
 constexpr double tooth_tip = 1.55;
 
+// For unevenness 1: how much shorter the shortest tooth is than the longest, and how far side veins
+// differ from their mean length.
+constexpr double teeth_spread = 0.75, vein_spread = 0.12;
+
+// Returns 0..1 for the n-th of many things, so that neighbours are unlike.
+//
+// source  multiples of the golden ratio, modulo 1
+double unlike(double n) {
+    const double turns = n * 0.6180339887498949;
+    return turns - std::floor(turns);
+}
+
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 double edge_length(const Venation& venation, int d) {
@@ -128,8 +140,13 @@ std::vector<BorderPoint> border_curve(const Venation& venation, const Lobe& lobe
             double t = static_cast<double>(step) / count;
             double lift = 0.0;
             if (teeth > 0 && step % 2 == 1) {
-                t = (step - 1 + tooth_tip) / count;
-                lift = tooth;
+                // The first tooth after the end of a vein is the longest, as in doubly serrate
+                // leaves.
+                const double own = step == 1 ? 0.0
+                                             : unlike(static_cast<double>(i) * teeth + step +
+                                                      7.0 * static_cast<double>(which));
+                t = (step - 1 + tooth_tip - 0.3 * venation.unevenness * own) / count;
+                lift = tooth * (1.0 - teeth_spread * venation.unevenness * own);
             }
             const double s = 1.0 - t;
             border.push_back(s * s * s * from + 3.0 * s * s * t * leaving +
@@ -321,7 +338,17 @@ Lobe planned_lobe(const Venation& venation, int outwards) {
         lobe.nodes.push_back(along);
     }
     lobe.reach = along + (venation.border - 1.0) * edge;
-    for (HalfLobe& half : lobe.halves) half.side_veins = side_veins;
+    for (std::size_t side = 0; side < 2; ++side) {
+        std::vector<HalfLobe::SideVein>& own = lobe.halves[side].side_veins;
+        own = side_veins;
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            const double begin = i == 0 ? 0.0 : side_veins[i - 1].abscissa;
+            if (side == 1)
+                own[i].abscissa -= 0.5 * venation.asymmetry * (side_veins[i].abscissa - begin);
+            const double drawn = unlike(2.0 * static_cast<double>(i) + static_cast<double>(side));
+            own[i].length *= 1.0 + vein_spread * venation.unevenness * (2.0 * drawn - 1.0);
+        }
+    }
     return lobe;
 }
 

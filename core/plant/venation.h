@@ -30,7 +30,7 @@ constexpr const char* name(LengthLaw law) {
 
 /// The parameters of a leaf's veins and border.
 /// source  [Viennot1989] section 6.1; additional: base_deg, side_length, narrow_base, narrow_tip,
-///         sinus, pointed, teeth
+///         sinus, pointed, teeth, unevenness, asymmetry, net
 struct Venation {
     Choice<1, 3, 5, 7, 9, 11, 13> lobes{1};
     int nodes = 8;
@@ -49,6 +49,9 @@ struct Venation {
     double pointed = 0.5;
     double teeth = 0.0;
     int teeth_per_vein = 2;
+    double unevenness = 0.0;
+    double asymmetry = 0.0;
+    double net = 0.0;
 
     static constexpr void fields(auto visit) {
         using V = Venation;
@@ -125,6 +128,21 @@ struct Venation {
                                        .min = 1,
                                        .max = 6,
                                        .doc = "Teeth from one side vein to the next."});
+        visit(&V::unevenness, Info{.name = "unevenness",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How unlike teeth and side veins are in length."});
+        visit(&V::asymmetry,
+              Info{.name = "asymmetry",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How far the side veins of both halves stand one after the "
+                          "other; 1 half-way between."});
+        visit(&V::net, Info{.name = "net",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "How far veins of third order show, which join the side veins, "
+                                   "and the net between them."});
     }
     bool operator==(const Venation&) const = default;
 
@@ -226,6 +244,8 @@ struct LaminaPlace {
     /// Distance from the line of the nearest side vein of this half; 1e9 if it has none.
     double from_side = 1e9;
     double along_side = 0.0;  ///< height divided by the length of that vein
+    /// How far a vein of third order or the net is here, 0..1; painters set it.
+    double net = 0.0;
 };
 
 /// Computes the coordinates of points of one lamina; everything that does not depend on the point

@@ -233,7 +233,7 @@ TEST(LevelChoice, OfOtherProductsIsTheNearestWholeOne) {
     expect_nearest(
         leaf, [](const LeafSpec& spec) { return at_level(spec); },
         [](LeafSpec spec, int lod) {
-            return static_cast<double>(most_of_leaf(spec.params.shape.venation, lod).triangles);
+            return static_cast<double>(most_of_leaf(spec.params.shape, lod).triangles);
         });
     const Bounds box{glm::vec3(0.0F), glm::vec3(1.0F)};
     expect_nearest(

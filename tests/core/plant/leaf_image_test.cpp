@@ -108,6 +108,32 @@ TEST(LeafImage, IsTheSameWithAnyThreadsAndDiffersBetweenSeeds) {
     EXPECT_NE(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 2, 64).rgb);
 }
 
+TEST(LeafImage, TheNetIsPalerThanTheLaminaAndMarksAreBrown) {
+    LeafPreset oak = *leaf_preset("oak");
+    oak.shape.venation.net = oak.palette.marks = 0.0;
+    const auto mean_of = [&] {
+        const RawImages images = leaf_images(oak.shape, oak.palette, 0.0, 1, side);
+        const LeafChart chart =
+            chart_of(lamina_of(oak.shape.venation, leaf_steps(oak.shape.venation, 0)));
+        glm::dvec3 sum(0.0);
+        for (int i = 0; i < 400; ++i)
+            sum += texel(images, 0,
+                         chart.texture_point({0.2 * (i % 20 / 10.0 - 1.0), 0.2 + 0.03 * (i / 20.0)},
+                                             true)) /
+                   400.0;
+        return sum;
+    };
+    const glm::dvec3 plain = mean_of();
+    oak.shape.venation.net = 1.0;
+    const glm::dvec3 netted = mean_of();
+    EXPECT_GT(netted.g, plain.g + 0.005);
+    EXPECT_LT(netted.g, plain.g + 0.1);
+    oak.palette.marks = 1.0;
+    const glm::dvec3 marked = mean_of();
+    EXPECT_LT(marked.g, netted.g - 0.005);
+    EXPECT_GT(marked.r - marked.g, netted.r - netted.g);
+}
+
 TEST(LeafImage, InvalidRequestsAreRefused) {
     const LeafPreset& maple = *leaf_preset("maple");
     EXPECT_TRUE(names(refusal([&] { (void)leaf_images(maple.shape, maple.palette, 1.5, 1, 100); }),

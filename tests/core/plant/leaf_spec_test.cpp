@@ -102,7 +102,7 @@ TEST(LeafSpec, ImagesDoNotDependOnParametersOfTheShape) {
 
 TEST(LeafSpec, CountsNeverExceedTheEstimate) {
     const auto expect_enough = [](const LeafShape& shape, int lod) {
-        const LeafCount most = most_of_leaf(shape.venation, lod);
+        const LeafCount most = most_of_leaf(shape, lod);
         const Mesh mesh = leaf_mesh(shape, lod);
         EXPECT_LE(mesh.positions.size(), most.vertices) << lod;
         EXPECT_LE(mesh.triangles(), most.triangles) << lod;

@@ -270,6 +270,25 @@ TEST(Venation, HomothetyIsOneOnTheBorder) {
     }
 }
 
+TEST(Venation, UnevenTeethAndVeinsDifferAndHalvesStandInTurn) {
+    Venation venation = leaf_preset("birch")->shape.venation;
+    venation.unevenness = venation.asymmetry = 0.0;
+    const auto halves = [&] { return lamina_of(venation, 4).lobes.front().halves; };
+    EXPECT_EQ(halves()[0].heights, halves()[1].heights);
+    venation.asymmetry = 1.0;
+    const auto shifted = halves();
+    for (std::size_t i = 1; i < shifted[0].side_veins.size(); ++i) {
+        // Half-way between the veins of the other side.
+        const double middle =
+            0.5 * (shifted[0].side_veins[i - 1].abscissa + shifted[0].side_veins[i].abscissa);
+        EXPECT_NEAR(shifted[1].side_veins[i].abscissa, middle, 1e-9);
+    }
+    venation.asymmetry = 0.0;
+    venation.unevenness = 1.0;
+    EXPECT_NE(halves()[0].heights, halves()[1].heights);
+    EXPECT_NE(halves()[0].side_veins[2].length, halves()[1].side_veins[2].length);
+}
+
 TEST(Venation, ImpossibleLeavesAreRefusedByName) {
     Venation venation;
     venation.lobes.value = 13;
