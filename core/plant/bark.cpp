@@ -23,6 +23,10 @@ struct Group {
     double gap = 0.0;       // longest distance without a node, in radii
 };
 
+// Radius of a branch where it leaves a thicker one, in its radius at the end of its first edge; no
+// source or measurement is recorded.
+constexpr double collar = 1.4;
+
 // Returns how thin an order is: 0 for the trunk, 1 for branches, 2 for twigs, which are never
 // subdivided.
 int thinness(int order, int highest) {
@@ -48,6 +52,13 @@ int lowest_order(std::span<const double> segments, int lod) {
         lowest = std::min(lowest, order);
     }
     return lowest;
+}
+
+// Returns how far a node may lie beside the line between its neighbours, in its radii, to be left out.
+// Twigs are so thin that at coarse levels many times their radius is less than a pixel.
+double tolerance_of(const Group& group, int highest, int lod) {
+    const double coarse = 1.0 + lod;
+    return thinness(group.high, highest) == 2 ? 0.25 * coarse * coarse : 0.25 * coarse;
 }
 
 // Returns the groups of the orders lowest..highest, thickest first.
@@ -148,9 +159,10 @@ Skeleton part_of(const Tree& tree, const Group& group, double tolerance) {
         if (parent != Ramification::none && within(parent)) {
             from = place[parent];
         } else {
-            // A part that starts on a thicker one starts inside it, with its own radius.
+            // A part that starts on a thicker one starts inside it, with a collar about its foot.
             Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.segments[i].from];
-            if (parent != Ramification::none) root.radius = std::min(root.radius, here.radius);
+            if (parent != Ramification::none)
+                root.radius = std::min(root.radius, collar * here.radius);
             from = part.add(root);
         }
         if (children[i] == 1) {
@@ -181,7 +193,7 @@ Bark bark_of(const Tree& tree, int lod) {
     for (const Ramification::Node& node : tree.ramification.nodes)
         segments[static_cast<std::size_t>(node.order - 1)] += 1.0;
     for (const Group& group : groups_of(highest, lowest_order(segments, lod), lod)) {
-        const Skeleton part = part_of(tree, group, 0.25 * (1 + lod));
+        const Skeleton part = part_of(tree, group, tolerance_of(group, highest, lod));
         if (part.segments.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
         append(bark, skin.mesh);

@@ -15,7 +15,14 @@ namespace sporeprint {
 namespace {
 
 /// Height within which the flare falls to 1 / e, in radii of the trunk.
-constexpr double flare_height = 1.1;
+constexpr double flare_height = 1.9;
+
+/// Height from which on nothing flares, in heights of the flare: there it is below a ten-thousandth.
+constexpr double flare_end = 3.6;
+
+/// How far roots dip below the ground, in radii of the trunk, for a flare of 1: the foot of a tree on
+/// uneven ground stays covered.
+constexpr double dip = 0.6;
 
 /// The map of space about the foot of a trunk.
 class Flare {
@@ -35,7 +42,7 @@ class Flare {
         const double root = 0.5 + 0.5 * sine(roots_ * uneven + phases_[0]);
         const double strong = 0.8 + 0.2 * sine(2.0 * angle + phases_[2]);
         const double factor = 1.0 + flare_ * fallen * strong * (0.35 + 1.1 * root * root);
-        return {p.x * factor, p.y, p.z * factor};
+        return {p.x * factor, p.y - dip * flare_ * radius_ * fallen * root * root, p.z * factor};
     }
 
   private:
@@ -56,7 +63,7 @@ void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed)
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::dvec3 place(mesh.positions[i]);
         if (tree.ramification.nodes[bark.edges[i]].order != trunk ||
-            place.y > 6.0 * flare_height * radius)
+            place.y > flare_end * flare_height * radius)
             continue;
         // The map has no derivative on the axis, where the middle of the foot is.
         if (place.x * place.x + place.z * place.z < axis * axis) continue;
