@@ -199,7 +199,7 @@ class TreeBuilder {
         tree_.skeleton.segments.resize(count);
         tree_.headings.assign(count, upwards);
         tree_.across.assign(count, glm::dvec3(0.0, 0.0, 1.0));
-        scale_.assign(count, 1.0);
+        tree_.scales.assign(count, 1.0);
         tree_.skeleton.nodes[0] = {glm::dvec3(0.0), radius_of(highest_, leaves_[0])};
     }
 
@@ -247,7 +247,12 @@ class TreeBuilder {
     void apply_tropisms(std::uint32_t i) {
         glm::dvec3 heading = tree_.headings[i];
         const glm::dvec3 before = heading;
-        heading += shape_.gravitropism * (upwards - glm::dot(upwards, heading) * heading);
+        // The share of orders above its own, squared: boughs stand while twigs hang.
+        const double low =
+            highest_ > 1 ? static_cast<double>(highest_ - grown_.nodes[i].order) / (highest_ - 1.0)
+                         : 0.0;
+        heading += (shape_.gravitropism - shape_.weeping * low * low) *
+                   (upwards - glm::dot(upwards, heading) * heading);
         heading += shape_.phototropism * (light_ - glm::dot(light_, heading) * heading);
         heading = glm::normalize(heading);
         tree_.headings[i] = heading;
@@ -258,7 +263,7 @@ class TreeBuilder {
     void place_edge(std::uint32_t i, const Draws& draws) {
         const Ramification::Node& node = grown_.nodes[i];
         const std::uint32_t from = node.parent == Ramification::none ? 0 : node.parent + 1;
-        double length = scale_[i] * evenness_[i] *
+        double length = tree_.scales[i] * evenness_[i] *
                         (1.0 + length_variation * shape_.variation * draws.length) *
                         shape_.twig_length *
                         by_order(shape_.length_law, shape_.length_rise, node.order, leaves_[i]);
@@ -313,7 +318,8 @@ class TreeBuilder {
         } else {
             const double share = static_cast<double>(lesser) / (node.order - 1.0);
             main_turn = shape_.main_deg * share;
-            other_turn = shape_.side_deg * (node.order - lesser) / (node.order - 1.0);
+            const double unlike = (node.order - lesser) / (node.order - 1.0);
+            other_turn = shape_.side_deg * (unlike + shape_.spread * (1.0 - unlike));
         }
         const double varied = 1.0 + angle_variation * shape_.variation * draws.angle;
         const SineCosine of_main = sine_cosine(radians(main_turn * varied));
@@ -322,9 +328,12 @@ class TreeBuilder {
         tree_.headings[other] = of_other.cosine * heading + of_other.sine * across;
         tree_.across[main] = carried(across, heading, tree_.headings[main]);
         tree_.across[other] = carried(glm::cross(heading, across), heading, tree_.headings[other]);
-        const double shorter = scale_[i] * (1.0 - shape_.shortening * passed(i));
-        scale_[main] = grown_.nodes[main].order == node.order ? scale_[i] : shorter;
-        scale_[other] = shorter;
+        std::vector<double>& scales = tree_.scales;
+        const double left = 1.0 - passed(i);
+        const double low = node.order == highest_ ? shape_.rounding * left * left * left : 0.0;
+        const double shorter = scales[i] * (1.0 - shape_.shortening * passed(i)) * (1.0 - low);
+        scales[main] = grown_.nodes[main].order == node.order ? scales[i] : shorter;
+        scales[other] = shorter;
     }
 
     const TreeShape& shape_;
@@ -334,7 +343,6 @@ class TreeBuilder {
     Axes axes_;
     std::vector<double> leaves_;    ///< in the subtree of each node
     std::vector<double> evenness_;  ///< factors on lengths
-    std::vector<double> scale_;     ///< factors on lengths by the place on the parent's axis
     int highest_ = 0;               ///< order of the trunk
     glm::dvec3 light_{0.0};         ///< unit, to the light
 };
@@ -367,6 +375,8 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
         const glm::dvec3 heading = tree.headings[i];
         Random random(seed, purposes::placed_leaves, i);
         const double start = random.uniform();
+        // Leaves at full size would hide a short twig and blunt the top of a crown.
+        const double smaller = tree.scales.empty() ? 1.0 : std::sqrt(std::sqrt(tree.scales[i]));
         for (int k = 0; k < style.per_tip; ++k) {
             const double turn_drawn = random.symmetric(), size_drawn = random.symmetric();
             const double tilt_x = random.symmetric(), tilt_z = random.symmetric();
@@ -382,7 +392,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
             if (glm::length(along) < least_direction) along = out;
             leaf.along = glm::normalize(along);
             leaf.up = square_to(leaf.along, upwards + leaf_tilt * glm::dvec3(tilt_x, 0.0, tilt_z));
-            leaf.size = style.leaf_size * (1.0 + style.size_spread * size_drawn);
+            leaf.size = style.leaf_size * smaller * (1.0 + style.size_spread * size_drawn);
             leaf.id = i * ids_per_tip + static_cast<std::uint32_t>(k);
             leaf.twig = i;
             leaves.push_back(leaf);

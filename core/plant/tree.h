@@ -44,6 +44,7 @@ struct TreeShape {
     double fork_deg = 30.0;
     double main_deg = 10.0;
     double side_deg = 45.0;
+    double spread = 0.0;
     OrderLaw length_law = OrderLaw::linear;
     double length_rise = 0.15;
     double twig_length = 0.09;
@@ -52,11 +53,13 @@ struct TreeShape {
     double twig_radius = 0.0016;
     double trunk = 0.8;
     double shortening = 0.0;
+    double rounding = 0.0;
     double evenness = 0.0;
     double variation = 0.2;
     double azimuth_deg = 137.5;
     double plagiotropy = 0.0;
     double gravitropism = 0.05;
+    double weeping = 0.0;
     double phototropism = 0.0;
     double light_deg = 60.0;
     double light_azimuth_deg = 0.0;
@@ -82,6 +85,11 @@ struct TreeShape {
                                  .max = 100,
                                  .doc = "Turn of a twig on a much greater branch; less for "
                                         "greater ones."});
+        visit(&T::spread, Info{.name = "spread",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "How far greater side branches turn as much as twigs do; at "
+                                      "1 boughs stand off a trunk like twigs."});
         visit(&T::length_law, Info{.name = "length_law", .doc = "Lengths of edges by order."});
         visit(&T::length_rise,
               Info{.name = "length_rise", .min = 0, .max = 4, .doc = "A of the law of lengths."});
@@ -111,6 +119,12 @@ struct TreeShape {
                                    .max = 0.95,
                                    .doc = "How much shorter branches are at the end of their "
                                           "bearer than at its beginning: a cone."});
+        visit(&T::rounding,
+              Info{.name = "rounding",
+                   .min = 0,
+                   .max = 0.95,
+                   .doc = "How much shorter branches are at the beginning of the trunk than at its "
+                          "middle: a round crown."});
         visit(&T::evenness, Info{.name = "evenness",
                                  .min = 0,
                                  .max = 1,
@@ -135,6 +149,12 @@ struct TreeShape {
                                      .min = -0.5,
                                      .max = 0.5,
                                      .doc = "How far each edge turns up; down below 0."});
+        visit(&T::weeping,
+              Info{.name = "weeping",
+                   .min = 0,
+                   .max = 0.5,
+                   .doc = "How far each edge of twigs turns down, edges of greater orders less, "
+                          "those of the trunk not at all."});
         visit(&T::phototropism, Info{.name = "phototropism",
                                      .min = 0,
                                      .max = 0.5,
@@ -184,6 +204,8 @@ struct Tree {
     std::vector<glm::dvec3> headings;  ///< unit, of each segment before it ends
     std::vector<glm::dvec3>
         across;  ///< unit, square to them: the way to the side of its first child
+    /// Of each edge, how much shorter it is by its place on its parent; empty for none that is.
+    std::vector<double> scales;
 };
 
 /// Grows a tree: root at the origin, upwards along +y.

@@ -106,6 +106,40 @@ bool grow(Ramification& tree, std::uint32_t root, const RamificationMatrix& matr
     return true;
 }
 
+// Returns the orders of the side branches of all segments of an order, in random order.
+std::vector<int> shuffled_sides(const OrderCounts& counts, Random& random) {
+    std::vector<int> orders;
+    for (std::size_t i = 0; i < counts.sides.size(); ++i)
+        orders.insert(orders.end(), static_cast<std::size_t>(counts.sides[i]),
+                      static_cast<int>(i) + 1);
+    for (std::size_t i = orders.size(); i > 1; --i) {
+        const double drawn = random.uniform();
+        std::swap(orders[i - 1], orders[static_cast<std::size_t>(drawn * static_cast<double>(i))]);
+    }
+    return orders;
+}
+
+// Returns the same orders mixed evenly: each is spread over the whole list in equal steps, which
+// begin at a random share of a step.
+std::vector<int> spaced_sides(const OrderCounts& counts, Random& random) {
+    struct Side {
+        double at;
+        int order;
+    };
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i < counts.sides.size(); ++i)
+        for (double k = 0.0; k < counts.sides[i]; k += 1.0) {
+            const double drawn = random.uniform();
+            sides.push_back({(k + drawn) / counts.sides[i], static_cast<int>(i) + 1});
+        }
+    std::stable_sort(sides.begin(), sides.end(),
+                     [](const Side& a, const Side& b) { return a.at < b.at; });
+    std::vector<int> orders;
+    orders.reserve(sides.size());
+    for (const Side& side : sides) orders.push_back(side.order);
+    return orders;
+}
+
 }  // namespace
 
 std::vector<Problem> validation_errors(const RamificationMatrix& matrix, const std::string& path) {
@@ -212,7 +246,7 @@ double exact_leaves(const RamificationMatrix& matrix, int order) {
 }
 
 Ramification exact_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
-                                std::size_t most) {
+                                std::size_t most, bool spaced) {
     throw_if_invalid(matrix, order);
     const std::vector<OrderCounts> counts = counts_by_order(matrix, order);
     if (counts[1].segments > static_cast<double>(most)) refuse_size(counts[1].segments, most);
@@ -222,28 +256,23 @@ Ramification exact_ramification(const RamificationMatrix& matrix, int order, std
     roots[static_cast<std::size_t>(order)].push_back(appended(tree, none, order));
     for (int k = order; k >= 2; --k) {
         std::vector<std::uint32_t>& segments = roots[static_cast<std::size_t>(k)];
-        std::vector<int> side_orders;
-        for (int i = 1; i < k; ++i) {
-            const double count =
-                counts[static_cast<std::size_t>(k)].sides[static_cast<std::size_t>(i - 1)];
-            side_orders.insert(side_orders.end(), static_cast<std::size_t>(count), i);
-        }
+        const OrderCounts& counted = counts[static_cast<std::size_t>(k)];
         Random random(seed, purposes::exact_ramification, static_cast<std::uint32_t>(k));
-        for (std::size_t i = side_orders.size(); i > 1; --i) {
-            const double drawn = random.uniform();
-            std::swap(side_orders[i - 1],
-                      side_orders[static_cast<std::size_t>(drawn * static_cast<double>(i))]);
-        }
+        const std::vector<int> side_orders =
+            spaced ? spaced_sides(counted, random) : shuffled_sides(counted, random);
         // Every arrangement of side branches between the ends of the segments is equally likely.
         // Ends are distributed among them: a place is an end with the probability of the remaining
-        // ends among the remaining places, and the last place is one.
+        // ends among the remaining places, and the last place is one. Spaced segments end where their
+        // share of all side branches is used up.
         std::size_t segment = 0, next_side = 0;
         std::uint32_t tip = segments.empty() ? none : segments.front();
         while (segment < segments.size()) {
             const std::size_t sides_left = side_orders.size() - next_side;
             const std::size_t ends_left = segments.size() - segment - 1;
             bool is_end = sides_left == 0;
-            if (!is_end && ends_left > 0) {
+            if (!is_end && spaced) {
+                is_end = next_side * segments.size() >= (segment + 1) * side_orders.size();
+            } else if (!is_end && ends_left > 0) {
                 const double drawn = random.uniform();
                 is_end = drawn * static_cast<double>(sides_left + ends_left) <
                          static_cast<double>(ends_left);

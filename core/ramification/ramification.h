@@ -107,10 +107,14 @@ struct Ramification {
 /// rounded to an integer; only their arrangement is random.
 ///
 /// most    largest number of leaves
+/// spaced  whether all axes of an order have the same number of side branches but for one and their
+///         mixture is as even; otherwise every arrangement is equally likely, and one axis has ten
+///         times the branches of another
 /// throws  Impossible (path "/order") naming the exact number if the tree would have more;
 ///         InvalidInput for an invalid matrix
 [[nodiscard]] Ramification exact_ramification(const RamificationMatrix& matrix, int order,
-                                              std::uint32_t seed, std::size_t most);
+                                              std::uint32_t seed, std::size_t most,
+                                              bool spaced = false);
 
 /// Replaces each leaf by a small tree of another matrix, with an order drawn uniformly from
 /// 1..tip_order, as in herbaceous plants.

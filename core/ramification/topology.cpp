@@ -67,9 +67,9 @@ RamificationMatrix matrix_of(const TreeTopology& topology) {
 
 double expected_tips(const TreeTopology& topology) {
     const RamificationMatrix matrix = matrix_of(topology);
-    const double leaves = topology.growth == TreeGrowth::exact
-                              ? exact_leaves(matrix, topology.order)
-                              : expected_leaves(matrix, topology.order);
+    const double leaves = topology.growth == TreeGrowth::sampled
+                              ? expected_leaves(matrix, topology.order)
+                              : exact_leaves(matrix, topology.order);
     double mean = 0.0;
     for (int k = 1; k <= topology.tip_order; ++k)
         mean += expected_leaves(tip_matrix(topology), k) / topology.tip_order;
@@ -78,9 +78,10 @@ double expected_tips(const TreeTopology& topology) {
 
 Ramification ramified(const TreeTopology& topology, std::uint32_t seed, std::size_t most) {
     const RamificationMatrix matrix = matrix_of(topology);
-    Ramification grown = topology.growth == TreeGrowth::exact
-                             ? exact_ramification(matrix, topology.order, seed, most)
-                             : sampled_ramification(matrix, topology.order, seed, most);
+    const bool is_spaced = topology.growth == TreeGrowth::spaced;
+    Ramification grown = topology.growth == TreeGrowth::sampled
+                             ? sampled_ramification(matrix, topology.order, seed, most)
+                             : exact_ramification(matrix, topology.order, seed, most, is_spaced);
     if (topology.tip_order > 1)
         grown = with_tips(grown, tip_matrix(topology), topology.tip_order, seed, most);
     return grown;

@@ -34,8 +34,8 @@ constexpr const char* name(MatrixKind kind) {
 
 /// The way numbers of branches are chosen; JSON spells them as name() does. exact: exactly the
 /// proportions of the matrix, with a size known in advance. sampled: random node by node, with any
-/// size.
-enum class TreeGrowth { exact, sampled };
+/// size. spaced: as exact, and all branches of an order bear nearly the same number of others.
+enum class TreeGrowth { exact, sampled, spaced };
 
 constexpr const char* name(TreeGrowth growth) {
     switch (growth) {
@@ -43,6 +43,8 @@ constexpr const char* name(TreeGrowth growth) {
             return "dealt";
         case TreeGrowth::sampled:
             return "drawn";
+        case TreeGrowth::spaced:
+            return "spaced";
     }
     return nullptr;
 }
@@ -93,7 +95,10 @@ struct TreeTopology {
                               .max = most_order,
                               .doc = "Order of Horton and Strahler; each more bears about four "
                                      "times the leaves."});
-        visit(&T::growth, Info{.name = "growth", .doc = "Dealt to measure, or drawn freely."});
+        visit(&T::growth,
+              Info{.name = "growth",
+                   .doc = "Dealt to measure, drawn freely, or dealt so that all branches of "
+                          "an order bear nearly as many others: a full crown."});
         visit(&T::tips, Info{.name = "tips", .doc = "Matrix of the small trees at the tips."});
         visit(&T::tip_order,
               Info{.name = "tip_order",
@@ -124,7 +129,7 @@ inline constexpr std::size_t most_tips = 40'000;
 [[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
 
 /// Returns the expected number of tips of a tree without growing it; the exact number for
-/// TreeGrowth::exact without small trees at the tips.
+/// TreeGrowth::exact and spaced without small trees at the tips.
 [[nodiscard]] double expected_tips(const TreeTopology& topology);
 
 /// Returns the matrix of the small trees at the tips; its order is tip_order, at least 2.

@@ -293,7 +293,8 @@ TEST(GrownTree, DescribesItselfInExtras) {
     const Value json = json_chunk(joined(grow_tree(spec, atlas(), {"/v1/canonical", {}}).glb));
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/main_deg")->as_number(), 11.0);
-    EXPECT_EQ(json.at_pointer("/asset/extras/effective/rows/0/1")->as_number(), 0.3);
+    EXPECT_EQ(json.at_pointer("/asset/extras/effective/rows/0/1")->as_number(),
+              spec.params.look.shape.topology.rows[0][1]);
     const TreeMeshes meshes = tree_meshes(spec, atlas());
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
               static_cast<double>(meshes.triangles()));

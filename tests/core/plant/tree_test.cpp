@@ -244,6 +244,68 @@ TEST(Tree, ShorteningMakesACone) {
     EXPECT_NEAR(lengths.back(), full * 0.2, 1e-9);
 }
 
+TEST(Tree, RoundingShortensTheLowestBranchesOfTheTrunk) {
+    TreeShape shape = plain(3);
+    shape.topology.matrix = MatrixKind::own;
+    shape.topology.rows = {{0.9, 0.1}, {0.0, 0.9, 0.1}};
+    const auto lengths = [&] {
+        const Tree tree = grown_tree(shape, 2);
+        std::vector<double> found;
+        each_inner(tree, [&](std::uint32_t, const Ramification::Node& node) {
+            const std::uint32_t side = node.children[1];
+            if (node.order == 3 && tree.ramification.nodes[side].order == 2)
+                found.push_back(glm::length(edge(tree, side)));
+        });
+        return found;
+    };
+    const std::vector<double> before = lengths();
+    shape.rounding = 0.8;
+    const std::vector<double> rounded = lengths();
+    ASSERT_EQ(rounded.size(), before.size());
+    EXPECT_LT(rounded.front(), 0.6 * before.front());
+    EXPECT_NEAR(rounded.back(), before.back(), 0.01 * before.back());
+}
+
+TEST(Tree, SpreadTurnsGreatBranchesAsFarAsTwigs) {
+    TreeShape shape = plain();
+    shape.spread = 1.0;
+    const Tree tree = grown_tree(shape, 4);
+    each_inner(tree, [&](std::uint32_t i, const Ramification::Node& node) {
+        if (tree.ramification.nodes[node.children[0]].order < node.order) return;
+        EXPECT_NEAR(degrees_between(tree.headings[i], tree.headings[node.children[1]]),
+                    shape.side_deg, 1e-4);
+    });
+}
+
+TEST(Tree, WeepingTwigsHangWhileTheTrunkStands) {
+    const auto height = [](double weeping, int order) {
+        TreeShape shape = plain();
+        shape.weeping = weeping;
+        const Tree tree = grown_tree(shape, 4);
+        double sum = 0.0, count = 0.0;
+        for (std::uint32_t i = 0; i < tree.ramification.nodes.size(); ++i) {
+            if (tree.ramification.nodes[i].order != order) continue;
+            sum += tree.headings[i].y;
+            count += 1.0;
+        }
+        return sum / count;
+    };
+    EXPECT_EQ(height(0.3, 5), height(0.0, 5));
+    EXPECT_LT(height(0.3, 1), height(0.0, 1) - 0.2);
+}
+
+TEST(Tree, LeavesOfShortenedTwigsAreSmaller) {
+    TreeShape shape = plain(4);
+    LeafStyle style;
+    style.size_spread = 0.0;
+    for (const PlacedLeaf& leaf : placed_leaves(grown_tree(shape, 4), style, 1))
+        ASSERT_EQ(leaf.size, style.leaf_size);
+    shape.shortening = 0.75;
+    const Tree tree = grown_tree(shape, 4);
+    for (const PlacedLeaf& leaf : placed_leaves(tree, style, 1))
+        ASSERT_NEAR(std::pow(leaf.size / style.leaf_size, 4.0), tree.scales[leaf.twig], 1e-12);
+}
+
 TEST(Tree, EvenAxesAreEquallyLong) {
     TreeShape shape = plain(3);
     shape.topology.matrix = MatrixKind::own;

@@ -147,6 +147,32 @@ TEST(Ramification, ExactTreesDifferInArrangementOnly) {
     EXPECT_EQ(measured_biorders(one).rows, measured_biorders(other).rows);
 }
 
+// Spaced trees have the same numbers, and all axes of an order but its rounding the same of side
+// branches.
+TEST(Ramification, SpacedTreesBearEquallyManyBranchesOnEveryAxis) {
+    for (const Named& one : catalogue(6)) {
+        SCOPED_TRACE(one.name);
+        const Ramification exact = exact_ramification(one.matrix, 6, 11, plenty);
+        const Ramification tree = exact_ramification(one.matrix, 6, 11, plenty, true);
+        expect_tree(tree);
+        EXPECT_EQ(measured_biorders(tree).rows, measured_biorders(exact).rows);
+        for (int k = 2; k <= 5; ++k) {
+            std::size_t fewest = plenty, most = 0;
+            for (std::uint32_t i = 1; i < tree.nodes.size(); ++i) {
+                if (tree.nodes[i].order != k || tree.nodes[tree.nodes[i].parent].order == k)
+                    continue;
+                std::size_t length = 0;
+                for (std::uint32_t at = i; tree.nodes[at].order == k;
+                     at = tree.nodes[at].children[0])
+                    ++length;
+                fewest = std::min(fewest, length);
+                most = std::max(most, length);
+            }
+            EXPECT_LE(most, fewest + 1) << k;
+        }
+    }
+}
+
 // A tree of order 7 of the random binary matrix has 2731 leaves on average.
 TEST(Ramification, MeanNumbersOfLeavesFollowTheFormula) {
     EXPECT_NEAR(expected_leaves(random_binary_matrix(7), 7), 2731.0, 1e-6);
