@@ -163,8 +163,7 @@ bool is_present(const BranchGraph& graph, const TubeChain& chain) {
     return graph.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
-BranchPlan branch_plan(const Individual& individual, const BranchGraph& graph,
-                       DetailLevel level) {
+BranchPlan branch_plan(const Individual& individual, const BranchGraph& graph, DetailLevel level) {
     const Resolutions allowed = resolutions_at(level);
     const std::uint64_t all =
         level.lod < farthest_lod ? triangle_limit(level) : std::uint64_t{most_at_farthest};

@@ -114,12 +114,13 @@ int built(int count, double share, const Detail& detail) {
 
 /// The pieces that a level builds of one style.
 struct Built {
-    int lumps = 0, pieces = 0, strands = 0;
+    int clods = 0, lumps = 0, pieces = 0, strands = 0;
 };
 
 Built built_of(const GroundStyle& style, const Detail& detail) {
     const Resolution& resolution = by_columns(resolutions, detail);
-    return {built(style.soil.lumps, resolution.lumps, detail),
+    return {style.soil.lumps > 0 && detail.ground > 0.0 ? 1 : 0,
+            built(style.soil.lumps, resolution.lumps, detail),
             built(style.litter.pieces, resolution.litter, detail),
             built(style.strands.count, resolution.lumps, detail)};
 }
@@ -221,8 +222,8 @@ class GroundBuilder {
           clod_(layer, foot, random(0, -1)) {}
 
     void add() {
-        if (style_.soil.lumps > 0 && resolution_.clod.rows > 0) add_clod();
         const Built built = built_of(style_, detail_);
+        if (built.clods > 0) add_clod();
         for (int i = 0; i < built.lumps; ++i) add_lump(i);
         for (int i = 0; i < built.pieces; ++i) add_piece(i);
         for (int i = 0; i < built.strands; ++i) add_strand(i);
@@ -461,8 +462,8 @@ MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& det
     MeshCount sum;
     for (const GroundLayer& layer : layers) {
         const GroundStyle& style = layer.style;
-        MeshCount one = resolution.clod.count().times(style.soil.lumps > 0 ? 1 : 0);
         const Built built = built_of(style, detail);
+        MeshCount one = resolution.clod.count().times(built.clods);
         one += resolution.lump.count().times(built.lumps);
         one += resolution.rod.count().times(built.pieces + built.strands);
         if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;

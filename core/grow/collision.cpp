@@ -159,9 +159,9 @@ std::vector<CollisionShape> collision_shapes(const Individual& individual) {
     const auto fitted = [&](const char* part, const std::vector<std::uint32_t>& indices) {
         return fitted_shapes(part, mesh.positions, indices);
     };
-    if (individual.is_branched()) return fitted("body", mesh.indices);
     const std::vector<std::uint32_t> body =
         triangles_of(mesh, [](Part part) { return part != Part::veil && part != Part::ground; });
+    if (individual.is_branched()) return fitted("body", body);
     std::vector<CollisionShape> whole = fitted("body", body);
     if (const std::optional<WoodPiece> piece = wood_behind(individual)) {
         const Mesh wood = wood_mesh(*piece, last_lod, false);

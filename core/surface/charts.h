@@ -34,7 +34,7 @@ inline constexpr std::array<Part, part_count> all_parts = {
 /// Returns true when damage is painted on a part.
 [[nodiscard]] constexpr bool has_damage(Part part) { return is_disc(part) || part == Part::stem; }
 
-/// Layout for mushrooms of swept outlines.
+/// Layout for mushrooms of swept outlines. Widths are powers of two, as vectors of texels are.
 ///
 /// cap       disc: pole = apex, rim = margin, radius = share of the meridian arc
 /// hymenium  disc: radius = inner + (1 - inner) * arc share with inner = hymenium_inner_share; rim
@@ -51,10 +51,10 @@ inline constexpr std::array<Chart, part_count> swept_charts = {{
     {ChartMap::disc, 0.0, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::disc, 0.5, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::strip, 0.0, 0.5, 1.0, 0.375, 0.03},
-    {ChartMap::strip, 0.0, 0.875, 0.375, 0.125, 0.12},
-    {ChartMap::strip, 0.375, 0.875, 0.25, 0.125, 0.12},
-    {ChartMap::strip, 0.625, 0.875, 0.125, 0.125, 0.12},
-    {ChartMap::strip, 0.75, 0.875, 0.25, 0.125, 0.12},
+    {ChartMap::strip, 0.0, 0.875, 0.5, 0.125, 0.12},
+    {ChartMap::strip, 0.75, 0.875, 0.125, 0.125, 0.12},
+    {ChartMap::strip, 0.875, 0.875, 0.125, 0.125, 0.12},
+    {ChartMap::strip, 0.5, 0.875, 0.25, 0.125, 0.12},
 }};
 
 static_assert([] {

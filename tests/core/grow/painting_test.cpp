@@ -116,7 +116,7 @@ TEST(Painting, ASingleSpeciesHasASinglePainting) {
 }
 
 TEST(Painting, AUserModelHasASinglePainting) {
-    MushroomSpec spec = painted(order_of("x", 0.31));
+    MushroomSpec spec = painted(on_ground(order_of("x", 0.31)));
     spec.mix.clear();
     spec.model = atlas().find("russula_vinosa")->species.stages[1].model;
     const PaintSpec paint_spec = paint_spec_of(spec);

@@ -309,7 +309,7 @@ TEST(Paint, EveryColourChangesTheImages) {
     PaintParams walked = worn(HymeniumPattern::smooth);
     std::vector<std::string> names;
     for_each_colour(walked, "", [&](const std::string& name, Colour&) { names.push_back(name); });
-    EXPECT_EQ(names.size(), 17U);
+    EXPECT_EQ(names.size(), 20U);
     for (const std::string& wanted : names) {
         bool changed = false;
         for (std::size_t p = 0; p < 4 && !changed; ++p) {

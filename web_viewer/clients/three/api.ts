@@ -180,7 +180,7 @@ export interface components {
                     variants?: "none" | "weather";
                     /**
                      * base
-                     * @description natural: soil and the felt of the mycelium cling to the foot of the stem, as much as is usual for the species; clean: as if it were washed.
+                     * @description natural: the foot of the stem stands in a clod of soil with litter on it and strands of mycelium in it, and soil clings to the stem, as is usual for the species; clean: as if it were washed.
                      * @default natural
                      * @enum {string}
                      */
