@@ -41,7 +41,7 @@ constexpr double clod_grain = 0.14;
 /// Place on the clod, 0..1 over its rows, of the stem, of the edge and of the end of what lumps
 /// cover; share of the lumps above the edge.
 constexpr double at_stem = 1.0 / 7.0, at_edge = 3.0 / 7.0, at_end = 6.7 / 7.0;
-constexpr double lumps_above = 0.6;
+constexpr double lumps_above = 0.5;
 
 /// Waves round the clod, and their parts of its unevenness.
 constexpr std::array<int, 5> clod_waves = {2, 3, 5, 8, 11};
@@ -59,7 +59,7 @@ constexpr double lump_stray = 0.30, lump_rise = 0.16, least_flatness = 0.6, most
 
 /// Sizes of lumps fall from the first, which all levels build, to this share, by this power of their
 /// number.
-constexpr double least_lump = 0.2, lump_power = 2.2;
+constexpr double least_lump = 0.25, lump_power = 1.8;
 
 /// How a kind of litter is shaped and lies.
 struct PieceForm {
@@ -80,7 +80,7 @@ constexpr PieceForm form_of(LitterKind kind) {
         case LitterKind::grass:
             return {{0.8, 1.0, 0.85, 0.55, 0.0}, 0.035, 0.008, 48.0, 84.0, 0.45, 0.0, 0.08};
         case LitterKind::moss:
-            return {{0.5, 1.0, 0.9, 0.6, 0.0}, 0.105, 0.095, 42.0, 88.0, 0.3, 0.0, 0.15};
+            return {{0.5, 1.0, 0.9, 0.6, 0.0}, 0.07, 0.06, 42.0, 88.0, 0.3, 0.0, 0.15};
         case LitterKind::chips:
             return {{0.8, 1.0, 0.9, 0.8, 0.0}, 0.17, 0.09, -6.0, 12.0, 0.02, 0.15, 0.0};
     }
@@ -92,21 +92,20 @@ constexpr double on_lumps = 0.4;
 
 /// Half the width of a strand in its lengths, along it; how far it winds.
 constexpr std::array<double, 5> strand_widths = {1.0, 0.8, 0.62, 0.45, 0.0};
-constexpr double strand_width = 0.03, strand_wind = 0.3;
+constexpr double strand_width = 0.022, strand_wind = 0.16;
 
 /// Resolution of whole levels by their columns: the grids of the clod, of a lump and of a rod, empty
 /// where there is none, and the shares of the lumps and strands, and of the litter, that are built.
 struct Resolution {
     int least_columns;
-    SolidGrid clod, lump, rod;
+    SolidGrid clod, lump, rod, strand;
     double lumps, litter;
 };
-constexpr std::array<Resolution, 5> resolutions = {
-    {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, 1.0, 1.0},
-     {28, {8, 16, false}, {3, 4, false}, {4, 3, false}, 0.25, 0.8},
-     {12, {5, 8, false}, {}, {3, 3, false}, 0.0, 0.5},
-     {8, {4, 6, false}, {}, {}, 0.0, 0.0},
-     {0, {}, {}, {}, 0.0, 0.0}}};
+constexpr std::array<Resolution, 4> resolutions = {
+    {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, {8, 3, false}, 1.0, 1.0},
+     {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, 0.15, 0.5},
+     {12, {3, 8, false}, {}, {3, 3, false}, {}, 0.0, 0.15},
+     {0, {3, 6, false}, {}, {}, {}, 0.0, 0.0}}};
 
 int built(int count, double share, const Detail& detail) {
     return static_cast<int>(std::ceil(detail.ground * share * count));
@@ -119,8 +118,8 @@ struct Built {
 
 Built built_of(const GroundStyle& style, const Detail& detail) {
     const Resolution& resolution = by_columns(resolutions, detail);
-    return {style.soil.lumps > 0 && detail.ground > 0.0 ? 1 : 0,
-            built(style.soil.lumps, resolution.lumps, detail),
+    const bool has_clod = style.soil.lumps > 0 && detail.ground > 0.0 && resolution.clod.rows > 0;
+    return {has_clod ? 1 : 0, built(style.soil.lumps, resolution.lumps, detail),
             built(style.litter.pieces, resolution.litter, detail),
             built(style.strands.count, resolution.lumps, detail)};
 }
@@ -214,7 +213,6 @@ class GroundBuilder {
           weight_(layer.weight),
           stream_(layer.stream),
           seed_(seed),
-          foot_(foot),
           detail_(detail),
           resolution_(by_columns(resolutions, detail)),
           textured_(textured),
@@ -234,7 +232,6 @@ class GroundBuilder {
     const GroundStyle& style_;
     double weight_;
     std::uint32_t stream_, seed_;
-    const Foot& foot_;
     const Detail& detail_;
     const Resolution& resolution_;
     bool textured_, drawn_;
@@ -337,8 +334,8 @@ class GroundBuilder {
         std::array<double, 5> widths{};                     ///< along it, in shares of the largest
     };
 
-    void add_rod(const Rod& rod, std::size_t band, double window, double share) {
-        const SolidGrid& grid = resolution_.rod;
+    void add_rod(const Rod& rod, const SolidGrid& grid, std::size_t band, double window,
+                 double share) {
         const glm::dvec3 other = glm::cross(rod.along, rod.side);
         std::vector<glm::dvec3> corners;
         for (int i = 0; i < grid.rows; ++i) {
@@ -393,17 +390,20 @@ class GroundBuilder {
                 heading.cosine * out + heading.sine * tangent + 1.2 * (1.0 - lying) * out, out);
             const double slope = lying * style_.soil.rise / style_.soil.reach * glm::dot(flat, out);
             rod.along = unit_or((steep.sine - slope) * upwards + steep.cosine * flat, upwards);
-            const double clear = 0.5 * rod.length * std::abs(glm::dot(flat, out)) + rod.width;
+            // Its middle is no farther out than the soil unless the stem leaves no room.
+            const double clear = 0.5 * rod.length * std::abs(glm::dot(flat, out)) + rod.width,
+                         place_out = glm::dot(at.place - clod_.at(at_stem, angle).place, out);
             const double lift =
                 lying * (2.0 * rod.thickness + on_lumps * weight_ * style_.soil.size);
-            rod.from += lying * (out * clear - 0.5 * rod.length * rod.along) +
-                        upwards * (lift - form.sunk * rod.length);
+            rod.from +=
+                lying * (out * std::max(clear - place_out, 0.0) - 0.5 * rod.length * rod.along) +
+                upwards * (lift - form.sunk * rod.length);
             rod.bend = form.bend * bent *
                        (lying * upwards * roll + (1.0 - lying) * (flat - 0.3 * rod.along));
         }
         rod.side = turned_square(unit_or(glm::cross(upwards, rod.along), tangent), rod.along,
                                  roll + (1.0 - lying) * turned * pi);
-        add_rod(rod, 1, window, 0.2);
+        add_rod(rod, resolution_.rod, 1, window, 0.2);
     }
 
     void add_strand(int number) {
@@ -421,7 +421,7 @@ class GroundBuilder {
         rod.bend = -0.3 * upwards + 0.8 * rod.wind;
         rod.width = rod.thickness = strand_width * rod.length;
         rod.widths = strand_widths;
-        add_rod(rod, 2, window, 0.25);
+        add_rod(rod, resolution_.strand, 2, window, 0.25);
     }
 };
 
@@ -465,7 +465,8 @@ MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& det
         const Built built = built_of(style, detail);
         MeshCount one = resolution.clod.count().times(built.clods);
         one += resolution.lump.count().times(built.lumps);
-        one += resolution.rod.count().times(built.pieces + built.strands);
+        one += resolution.rod.count().times(built.pieces);
+        one += resolution.strand.count().times(built.strands);
         if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;
         sum += one;
     }

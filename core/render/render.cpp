@@ -159,6 +159,7 @@ class Facet {
         glm::vec3 normal = normalised(draw_->placement.of_normals * own, to_camera);
         found.smooth_normal = normal;
         found.transmission = material_->transmission;
+        found.scatters = material_->transmission > 0.0F;
         found.tint = material_->tint;
         if (!material_->base_color.empty() && !mesh.texture_coordinates.empty()) {
             const glm::vec2 uv = mixed(mesh.texture_coordinates, w);

@@ -84,6 +84,17 @@ glm::vec3 arriving_behind(const SurfacePoint& point, const Lamps& lamps, std::si
            through_neighbours(point, around.stopped_behind * point.occlusion, stopped);
 }
 
+/// Share of the smooth normal in that of matt light of flesh that scatters: light leaves it about a
+/// millimetre from where it entered, so that fine relief is seen in highlights more than in shades.
+constexpr float blurred = 0.55F;
+
+/// Returns the normal of matt light.
+glm::vec3 matt_normal(const SurfacePoint& point) {
+    if (!point.scatters) return point.normal;
+    const glm::vec3 between = point.normal + (point.smooth_normal - point.normal) * blurred;
+    return between * (1.0F / std::sqrt(std::max(glm::dot(between, between), 1e-6F)));
+}
+
 /// Returns how much light of open surroundings falls on a surface, relative to one that faces up.
 float brightness(const glm::vec3& normal) { return 0.65F + 0.35F * normal.y; }
 
@@ -100,18 +111,21 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
     // Narrow slots, which are painted as occlusion, shade the lamps too, but less.
     const float slots = 0.4F + 0.6F * point.occlusion;
 
+    const glm::vec3 soft = matt_normal(point);
     glm::vec3 matt(0.0F), shine(0.0F), stopped(0.0F);
     const auto weight = static_cast<float>(lamps.groups) * slots;
     for (std::size_t i = group; i < lamps.lights.size(); i += lamps.groups) {
         const Light& light = lamps.lights[i];
-        const float lit = glm::dot(normal, light.direction);
-        if (lit <= 0.0F) continue;
+        const float lit = glm::dot(normal, light.direction),
+                    lit_matt = glm::dot(soft, light.direction);
+        if (lit <= 0.0F && lit_matt <= 0.0F) continue;
         const float visible = lamps.shadows[i].light_at(point.at, point.smooth_normal);
-        const glm::vec3 all = light.strength * (lit * weight);
+        const glm::vec3 all = light.strength * (std::max(lit_matt, 0.0F) * weight);
         stopped += all * (1.0F - visible);
         if (visible <= 0.0F) continue;
-        const glm::vec3 arriving = all * visible;
-        matt += arriving;
+        matt += all * visible;
+        if (lit <= 0.0F) continue;
+        const glm::vec3 arriving = light.strength * (lit * weight) * visible;
         const glm::vec3 sum = light.direction + point.to_camera;
         const float length = std::sqrt(glm::dot(sum, sum));
         if (length < 1e-3F) continue;
@@ -123,7 +137,7 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
         shine += arriving * highlights;
     }
     // The surroundings were summed for the smooth normal; the sky is brighter than the ground.
-    const float bump = brightness(normal) / brightness(point.smooth_normal) * point.occlusion;
+    const float bump = brightness(soft) / brightness(point.smooth_normal) * point.occlusion;
     const glm::vec3 around = point.ambient.arriving * bump;
     const glm::vec3 bounced = point.base_color * (point.ambient.stopped * (returned_sky * bump) +
                                                   stopped * returned_lamps);

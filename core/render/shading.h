@@ -20,6 +20,7 @@ struct SurfacePoint {
     float occlusion = 1.0F, roughness = 0.9F;
     Ambient ambient;            ///< at smooth_normal
     float transmission = 0.0F;  ///< share of the matt light that passes through from behind
+    bool scatters = false;      ///< light enters the flesh, which blurs what is fine in its relief
     glm::vec3 tint{1.0F};       ///< of that light
 };
 

@@ -32,7 +32,7 @@ HWY_INLINE Texel ground_texel(const GroundPlan& plan, VF round, VF up, const VF*
                      set(plan.shown[1]);
     Texel out;
     // Soil: crumbs of humus and paler grains of sand.
-    const VF sand = smooth(grain + cloud * set(0.3F), 0.34F, 1.0F / 0.3F) * set(0.45F);
+    const VF sand = smooth(grain + cloud * set(0.3F), 0.34F, 1.0F / 0.3F) * set(0.18F);
     const Rgb soil =
         mix(shaded(rgb(plan.soil), set(1.25F) + cloud * set(0.30F) + grain * set(0.55F)),
             Rgb{set(0.30F), set(0.24F), set(0.16F)}, sand);

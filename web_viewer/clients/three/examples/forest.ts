@@ -114,7 +114,7 @@ async function walk(server: string, species: string[]): Promise<ForestReport> {
             texture_size: 1024,
             ...options,
         }),
-        sporeprint.load(`trees/birch.glb?lod=2&${new URLSearchParams(options).toString()}`),
+        sporeprint.load(`trees/birch.glb?lod=3&${new URLSearchParams(options).toString()}`),
     ]);
     const scene = new Scene();
     scene.background = new Color(0xb9ccd6);
