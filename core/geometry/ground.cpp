@@ -26,21 +26,23 @@ constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
 struct ClodRow {
     double depth, off, rise, drop, stray;
 };
-constexpr std::array<ClodRow, 8> clod_rows = {{{0.0, -0.5, 1.05, 0.0, 0.0},
+constexpr std::array<ClodRow, 9> clod_rows = {{{0.0, -0.5, 1.05, 0.0, 0.0},
                                                {0.0, 0.02, 1.0, 0.0, 0.35},
-                                               {0.0, 0.45, 0.45, 0.0, 0.55},
+                                               {0.0, 0.45, 0.7, 0.0, 0.45},
+                                               {0.0, 0.85, 0.4, 0.0, 0.55},
                                                {0.0, 1.0, 0.0, -0.12, 0.6},
                                                {0.3, 0.8, 0.0, -0.15, 0.5},
                                                {0.6, 0.7, 0.0, -0.1, 0.5},
                                                {0.85, 0.55, 0.0, -0.1, 0.4},
                                                {1.0, 0.0, 0.0, -0.5, 0.0}}};
 
-/// How far single corners of the clod stray, in reaches.
-constexpr double clod_grain = 0.14;
+/// How far single corners of the clod stray, in reaches; above the ground at most by this share of
+/// their height, so that the ground shows nowhere through the soil.
+constexpr double clod_grain = 0.14, most_stray = 0.6;
 
 /// Place on the clod, 0..1 over its rows, of the stem, of the edge and of the end of what lumps
 /// cover; share of the lumps above the edge.
-constexpr double at_stem = 1.0 / 7.0, at_edge = 3.0 / 7.0, at_end = 6.7 / 7.0;
+constexpr double at_stem = 1.0 / 8.0, at_edge = 4.0 / 8.0, at_end = 7.7 / 8.0;
 constexpr double lumps_above = 0.5;
 
 /// Waves round the clod, and their parts of its unevenness.
@@ -176,7 +178,7 @@ class Clod {
     std::array<std::array<double, clod_waves.size()>, 3> phases_{};
 
     [[nodiscard]] double uneven(std::size_t row, double angle) const {
-        const auto& phases = phases_[row < 3 ? 0 : row == 3 ? 1 : 2];
+        const auto& phases = phases_[row < 4 ? 0 : row == 4 ? 1 : 2];
         double sum = 0.0;
         for (std::size_t k = 0; k < clod_waves.size(); ++k)
             sum += clod_parts[k] * sine(clod_waves[k] * angle + phases[k]);
@@ -274,7 +276,9 @@ class GroundBuilder {
                 const bool is_tip = i + 1 == grid.rows;
                 const FootPoint at =
                     clod_.at(row_place(i, grid), is_tip ? 0.0 : 2.0 * pi * j / grid.columns);
-                const double stray = grain * random.symmetric();
+                const double height = at.place.y;
+                const double stray = (height > 0.0 ? std::min(grain, most_stray * height) : grain) *
+                                     random.symmetric();
                 corners.push_back(at.place + (is_tip ? 0.0 : stray) * at.outwards);
             }
             close_row(corners, grid);
