@@ -145,7 +145,11 @@ struct ColonyParams {
         visit(&P::textures, info_of<M>("textures"));
         visit(&P::share, share_info);
         visit(&P::variants, variants_info);
-        visit(&P::base, base_info);
+        visit(&P::base,
+              Info{.name = "base",
+                   .doc = "natural: soil and the felt of the mycelium cling to the foot of every "
+                          "stem, as much as is usual for the species; clean: as if it were "
+                          "washed. A colony has no clods of soil, which a lone mushroom has."});
         visit(&P::file, file_info);
         visit(&P::instancing,
               Info{.name = "instancing",

@@ -73,6 +73,8 @@ MushroomSpec individual_spec(const ColonySpec& spec, int which) {
                          : params.age;
     own.params.lod = cap_lod(params.lod);
     own.params.substrate = Substrate::none;  // the colony has one for all
+    // The clod of a mushroom fits its own foot; stems of a colony lean and end in others or in roots.
+    own.params.base = Base::clean;
     own.params.textures = params.textures;
     own.params.file = params.file;
     return own;

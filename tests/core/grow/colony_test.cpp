@@ -49,6 +49,17 @@ Colony parts_of(const ColonySpec& spec) {
 }
 Grown grown(const ColonySpec& spec) { return grow_colony(spec, atlas(), {}, with_cached_morphs()); }
 
+// Soil is painted on stems; clods would stand on the slant, or on roots.
+TEST(Colony, HasNoClods) {
+    ColonySpec spec = colony_of("russula_emetica", 5, 2);
+    const std::size_t bytes = size_of(grown(spec).glb);
+    spec.params.base = Base::clean;
+    EXPECT_NEAR(static_cast<double>(size_of(grown(spec).glb)), static_cast<double>(bytes), 64.0);
+    for (const Mesh& model : parts_of(spec).models)
+        for (const glm::vec2& at : model.texture_coordinates)
+            ASSERT_NE(part_at(at.x, at.y), Part::ground);
+}
+
 class EveryColony : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Species, EveryColony, ::testing::ValuesIn(species_ids()),
                          [](const auto& one) { return one.param; });
