@@ -17,7 +17,6 @@ namespace {
 
 // No source or measurement is recorded for the values below, unless one is named.
 
-constexpr double golden_angle = 2.399963229728653;
 constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
 
 /// The clod by its rows, from inside the stem over the ground and down to its lowest point. Where the
@@ -120,18 +119,29 @@ struct Built {
 
 Built built_of(const GroundStyle& style, const Detail& detail) {
     const Resolution& resolution = by_columns(resolutions, detail);
-    const bool has_clod = style.soil.lumps > 0 && detail.ground > 0.0 && resolution.clod.rows > 0;
+    const bool has_clod = style.soil.lumps > 0 && detail.ground > 0.0;
     return {has_clod ? 1 : 0, built(style.soil.lumps, resolution.lumps, detail),
             built(style.litter.pieces, resolution.litter, detail),
             built(style.strands.count, resolution.lumps, detail)};
 }
 
+/// A place between two neighbouring entries of a table.
+struct Between {
+    std::size_t below;
+    double t;  ///< 0 at that entry, 1 at the next one
+};
+
+/// Returns where a place, 0..1, is in a table of evenly spaced entries.
+Between between_entries(double place, std::size_t entries) {
+    const double at = place * static_cast<double>(entries - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), entries - 2);
+    return {below, at - static_cast<double>(below)};
+}
+
 /// Returns what a table of evenly spaced entries has at a place, 0..1.
 template <class Table>
 auto of_table(const Table& table, double place) {
-    const double at = place * static_cast<double>(table.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(at), table.size() - 2);
-    const double t = at - static_cast<double>(below);
+    const auto [below, t] = between_entries(place, table.size());
     return (1.0 - t) * table[below] + t * table[below + 1];
 }
 
@@ -162,9 +172,7 @@ class Clod {
     ///
     /// place  0..1 over the rows
     [[nodiscard]] FootPoint at(double place, double angle) const {
-        const double last = static_cast<double>(clod_rows.size() - 1);
-        const auto below = std::min(static_cast<std::size_t>(place * last), clod_rows.size() - 2);
-        const double t = place * last - static_cast<double>(below);
+        const auto [below, t] = between_entries(place, clod_rows.size());
         const FootPoint from = corner(below, angle), to = corner(below + 1, angle);
         return {(1.0 - t) * from.place + t * to.place,
                 unit_or((1.0 - t) * from.outwards + t * to.outwards, from.outwards)};
@@ -376,14 +384,14 @@ class GroundBuilder {
         // What lies reaches over the edge of the soil, what grows stands on it.
         const double gap = lying > 0.5 ? far * far : 0.1 + 0.9 * far;
         const FootPoint at = clod_.at(at_stem + (at_edge - at_stem) * gap, angle);
+        const glm::dvec3 stem = clod_.at(at_stem, angle).place;
         const glm::dvec3 out = level(at.outwards, angle);
         const glm::dvec3 tangent = glm::cross(out, upwards);
         rod.from = at.place;
         if (lot < form.leaning) {
             // It leans on the stem with its tip.
             const auto steep = sine_cosine(0.5 + 0.6 * turned);
-            rod.from =
-                clod_.at(at_stem, angle).place + out * (rod.length * steep.cosine + rod.thickness);
+            rod.from = stem + out * (rod.length * steep.cosine + rod.thickness);
             rod.from.y = at.place.y;
             rod.along = steep.sine * upwards - steep.cosine * out;
             rod.bend = 0.3 * form.bend * bent * out;
@@ -396,7 +404,7 @@ class GroundBuilder {
             rod.along = unit_or((steep.sine - slope) * upwards + steep.cosine * flat, upwards);
             // Its middle is no farther out than the soil unless the stem leaves no room.
             const double clear = 0.5 * rod.length * std::abs(glm::dot(flat, out)) + rod.width,
-                         place_out = glm::dot(at.place - clod_.at(at_stem, angle).place, out);
+                         place_out = glm::dot(at.place - stem, out);
             const double lift =
                 lying * (2.0 * rod.thickness + on_lumps * weight_ * style_.soil.size);
             rod.from +=

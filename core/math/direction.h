@@ -9,6 +9,10 @@
 
 namespace sporeprint {
 
+/// Angle between neighbours of a sequence that stays evenly spread round a circle, however long it is,
+/// radians.
+inline constexpr double golden_angle = 2.399963229728653;
+
 /// Returns a direction transported, without twist, as the heading rotates from one unit vector to
 /// another. Nearly opposite headings leave it unchanged.
 [[nodiscard]] glm::dvec3 carried(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to);

@@ -35,8 +35,6 @@ constexpr int lamp_parts = 8, back_lamp_parts = 2, sky_parts = 20, ground_parts 
 /// Half the angle under which the lamps are seen, radians.
 constexpr double lamp_radius = 0.13, back_lamp_radius = 0.2;
 
-constexpr double golden_angle = 2.399963229728653;
-
 /// Returns a point of a spiral in a disc of radius 1: its radius and angle.
 glm::dvec2 in_disc(int i, int count) {
     const double radius = std::sqrt((i + 0.5) / count);
