@@ -20,11 +20,11 @@ namespace {
 
 // Rows of a blade on the face. They are equal in all but large sets, so that weight 1 reproduces
 // the single-species mesh.
-constexpr int face_segments = 6, least_segments = 3, stem_segments = 2;
+constexpr int face_segments = 10, usual_segments = 6, least_segments = 3;
+constexpr int stem_segments = 3, usual_below = 2;
 constexpr int most_blade_triangles = 36000;
 constexpr std::size_t row_corners = 6;
-constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from one ridge to the next
-constexpr int vein_segments = 3, least_veins = 100, most_veins = 400;
+constexpr int vein_segments = 5, usual_vein_segments = 3, least_veins = 100, most_veins = 400;
 
 // Decurrence from which on blades stand on the stem's surface, as a share of its length: all
 // decurrent species of the atlas have more.
@@ -35,11 +35,35 @@ constexpr double least_decurrence = 0.01;
 constexpr double vanishing_place = 0.003, vanishing_width = 0.004, vanishing_length = 0.015,
                  vanishing_embedding = 0.01, vanishing_vein = 0.006;
 
-// Share by which rows of a blade are moved to its ends, where its edge is most curved.
-constexpr double row_crowding = 0.85;
+// Share by which rows of a blade are moved towards its ends, where its edge is most curved.
+constexpr double row_crowding = 0.5;
 
 // Shortest part of a decurrent blade on the stem, in that of the longest: blades do not end in a line.
-constexpr double shortest_down = 0.5;
+constexpr double shortest_down = 0.25;
+
+// Share of the meridian within which blades that are not decurrent begin at the stem, and the
+// shares before the margin between which blades end: unlike each other, so that neither line is
+// drawn sharply, and before the margin, which stays a smooth curve.
+constexpr double begins_within = 0.035, ends_before = 0.006, ends_within = 0.022;
+
+// Shares of the meridian over which a blade that is not decurrent, and the outer end of each, are
+// rounded.
+constexpr double begin_rounding = 0.035, end_rounding = 0.045;
+
+// Rows of a blade within either rounded end, and the share of it after which the second one stands.
+constexpr int end_rows = 2;
+constexpr double second_row = 0.22;
+
+// Largest part of its depth by which a blade is shallower than others, and by which its edge is
+// eroded between undulations; undulations from stem to margin.
+constexpr double shallower = 0.12, eroded = 0.1, least_undulations = 1.7, most_undulations = 3.6;
+
+// Length of the rise of a short blade, relative to that of the gill layout, and its thickness
+// where it begins, relative to that where it has its whole height.
+constexpr double shortest_rise = 1.0, longest_rise = 2.3, rising_thickness = 0.4;
+
+// Share of the meridian up to which the edge of a decurrent blade is a curve from the stem.
+constexpr double curve_reach = 0.3;
 
 // Share of the meridian over which the part of a decurrent blade beyond the outline ends.
 constexpr double protrusion_fades = 0.25;
@@ -91,8 +115,9 @@ constexpr double protrusion = 0.55, most_protrusion = 0.3;
 // Length of a cross vein on the blades' image, in lengths of the meridian.
 constexpr double vein_texture_length = 0.06;
 
-// Depth of a cross vein of full height, relative to that of ridges.
-constexpr double vein_depth = 0.34;
+// Depth of a cross vein of full height, relative to that of ridges; the shares of it and of the
+// width that are missing half-way; and how far a vein bends, in its tilt.
+constexpr double vein_depth = 0.42, vein_sag = 0.3, vein_narrowing = 0.4, vein_bend = 0.35;
 
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
@@ -166,7 +191,11 @@ std::vector<SpeciesBlades> species_blades(const Individual& individual) {
 /// Sideways displacement of a blade along the meridian, and how far it runs down the stem.
 struct Ripple {
     double size, pitch, phase, other;
-    double down;  ///< in the length of the longest blade on the stem
+    double down;                 ///< in the length of the longest blade on the stem
+    double start, finish;        ///< 0..1: how late it begins at the stem, how early it ends
+    double shallow;              ///< 0..1: how much shallower than others it is
+    double undulations, offset;  ///< waves of its edge
+    double rise;                 ///< factor on the length over which a short blade rises
 
     Ripple(std::uint32_t seed, int number, double with_size) : size(with_size) {
         Random random(seed, purposes::blade_ripple, static_cast<std::uint32_t>(number));
@@ -174,6 +203,17 @@ struct Ripple {
         other = random.uniform();
         pitch = random.uniform(least_ripples, most_ripples);
         down = random.uniform(shortest_down, 1.0);
+        start = random.uniform();
+        finish = random.uniform();
+        shallow = random.uniform();
+        undulations = random.uniform(least_undulations, most_undulations);
+        offset = random.uniform();
+        rise = random.uniform(shortest_rise, longest_rise);
+    }
+    /// Returns the depth of its edge at a share of the meridian, relative to that of the species.
+    [[nodiscard]] double depth(double share) const {
+        const double wave = 0.5 + 0.5 * cubic_wave(undulations * share * (1.0 + share) + offset);
+        return 1.0 - shallower * shallow - eroded * shallow * wave;
     }
     [[nodiscard]] double at(double share) const {
         return size * (cubic_wave(pitch * share + phase) +
@@ -215,6 +255,7 @@ struct SlotBlend {
     double present = 0.0;     ///< sum of weight times presence
     double each = 0.0;        ///< 1 / present, or 0
     double begin = 0.0;       ///< on the meridian, 0 at the stem
+    double end = 1.0;         ///< the same, 1 at the margin
     double down = 0.0;        ///< share of the stem's length that the blade covers
     double protruding = 0.0;  ///< depth beyond the outline where the blade is decurrent
     std::vector<Ripple> ripples;
@@ -231,13 +272,17 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
         const double here = w.weight * blade.presence;
         blend.ripples.emplace_back(seed, blade.number, here * w.hymenium->edge_waves);
         blend.present += here;
+        const Ripple& own = blend.ripples.back();
         blend.begin += here * std::max(blade.begin, w.hymenium->inner_gap);
+        blend.end -= here * (ends_before + ends_within * own.finish);
         if (blade.begin > 0.0) continue;
-        blend.down += here * w.hymenium->decurrent * blend.ripples.back().down;
+        blend.begin += here * begins_within * own.start * (1.0 - decurrence(*w.hymenium));
+        blend.down += here * w.hymenium->decurrent * own.down;
         blend.protruding += here * decurrence(*w.hymenium) * w.hymenium->depth;
     }
     blend.each = blend.present > 0.0 ? 1.0 / blend.present : 0.0;
     blend.begin = blend.present > 0.0 ? std::min(blend.begin * blend.each, last_begin) : 0.5;
+    blend.end = std::max(1.0 - (1.0 - blend.end) * blend.each, 0.5 * (1.0 + blend.begin));
     blend.down = std::min(blend.down * blend.each, most_down);
     return blend;
 }
@@ -271,7 +316,13 @@ class Builder {
     /// One cross-section of a blade: its base point, with the directions of depth and thickness.
     struct Row {
         SurfacePoint root;  ///< meridian: direction of depth; azimuth: direction of thickness
-        double share = 0.0, height = 0.0, half = 0.0, stray = 0.0;
+        double along = 0.0, share = 0.0, height = 0.0, half = 0.0, stray = 0.0;
+    };
+    /// The part of the edge of a decurrent blade that is a curve.
+    struct EdgeCurve {
+        double strength = 0.0;   ///< 0..1: the share by which the edge is moved onto it
+        std::size_t corner = 0;  ///< row at the end of the stem
+        double to = 0.0;         ///< metres along the face up to which it reaches
     };
     /// The same in coordinates of the face, before it is placed in space.
     struct Plan {
@@ -279,18 +330,21 @@ class Builder {
         double along = 0.0;
         /// 0..1: how far a base point on the stem is sunk into the flesh, as on the face.
         double buried = 0.0;
-        double angle = 0.0, height = 0.0, half = 0.0, stray = 0.0;
+        double angle = 0.0, height = 0.0, stray = 0.0;
+        double half = 1.0;  ///< at first relative to that of the other blades
     };
     void plan_stem_rows(const BladeBudget& budget, const SlotBlend& blend, double beyond);
     void plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
                         const SlotBlend& blend, double beyond);
     void place_blade(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
                      const BladeShape& shape, const SlotBlend& blend, double most);
-    void plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of);
-    void place_vein(const CrossVein& vein, double most);
+    void plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of,
+                   const BladeBudget& budget);
+    void place_vein(const CrossVein& vein, double most, const BladeBudget& budget);
     void row(const Plan& plan, double embedding);
-    void append_rows(double shoulder, double waist);
-    void append(double shoulder, double waist, bool drawn);
+    [[nodiscard]] std::vector<glm::dvec3> edge_offsets(const EdgeCurve& curve) const;
+    void append_rows(double shoulder, double waist, const EdgeCurve& curve);
+    void append(double shoulder, double waist, bool drawn, const EdgeCurve& curve);
 
     const Attachment& attachment_;
     const Individual& individual_;
@@ -305,6 +359,7 @@ class Builder {
 void Builder::row(const Plan& plan, double embedding) {
     Row row;
     row.half = plan.half;
+    row.along = plan.along;
     const SubCurve& stem = context_.outline.stem;
     if (plan.along < 0.0) {
         OutlineSample root = stem.at(1.0 + plan.along / stem.length());
@@ -334,10 +389,36 @@ void Builder::row(const Plan& plan, double embedding) {
     rows_.push_back(row);
 }
 
+// Returns the displacements of the edge of a decurrent blade onto a quadratic curve from its end on
+// the stem to the face: the outline has a corner at the end of the stem, which a blade fills.
+std::vector<glm::dvec3> Builder::edge_offsets(const EdgeCurve& curve) const {
+    std::vector<glm::dvec3> offsets(rows_.size(), glm::dvec3(0.0));
+    if (curve.strength <= 0.0) return offsets;
+    const auto edge = [&](std::size_t j) {
+        return rows_[j].root.position + rows_[j].height * rows_[j].root.meridian;
+    };
+    std::size_t last = curve.corner + 1;
+    while (last + 1 < rows_.size() && rows_[last].along < curve.to) ++last;
+    const Row &before = rows_[last - 1], &after = rows_[last];
+    const double t = std::clamp(
+        (curve.to - before.along) / std::max(after.along - before.along, 1e-12), 0.0, 1.0);
+    const glm::dvec3 from = edge(0), corner = edge(curve.corner),
+                     to = edge(last - 1) + t * (edge(last) - edge(last - 1));
+    const double span = std::max(curve.to - rows_[0].along, 1e-12);
+    for (std::size_t j = 1; j < last; ++j) {
+        const double u = std::clamp((rows_[j].along - rows_[0].along) / span, 0.0, 1.0);
+        const glm::dvec3 point =
+            (1.0 - u) * (1.0 - u) * from + 2.0 * u * (1.0 - u) * corner + u * u * to;
+        offsets[j] = curve.strength * (point - edge(j));
+    }
+    return offsets;
+}
+
 // A row has six corners: root, shoulder and tip of one face; tip, shoulder and root of the other.
 // The first and the last row have no thickness, so that both faces meet there and the solid is
 // closed.
-void Builder::append_rows(double shoulder, double waist) {
+void Builder::append_rows(double shoulder, double waist, const EdgeCurve& curve) {
+    const std::vector<glm::dvec3> offsets = edge_offsets(curve);
     for (std::size_t j = 0; j < rows_.size(); ++j) {
         const Row& row = rows_[j];
         const glm::dvec3 &root = row.root.position, &deep = row.root.meridian,
@@ -348,8 +429,8 @@ void Builder::append_rows(double shoulder, double waist) {
         const glm::dvec3 side = unit_or(glm::cross(along, down), unit_or(-thick, {1.0, 0.0, 0.0}));
         const double half = j == 0 || j + 1 == rows_.size() ? 0.0 : row.half;
         const glm::dvec3 bent = root + row.stray * thick;
-        const glm::dvec3 middle = bent + shoulder * row.height * deep,
-                         tip = bent + row.height * deep + row.stray * thick;
+        const glm::dvec3 middle = bent + shoulder * (row.height * deep + offsets[j]),
+                         tip = bent + row.height * deep + row.stray * thick + offsets[j];
         const glm::dvec3 leaning = unit_or(side + shoulder_lean * down, side),
                          other = unit_or(-side + shoulder_lean * down, -side);
         const double u = row.share;
@@ -406,16 +487,39 @@ void orient_blade(Mesh& mesh, std::uint32_t first,
 }
 
 // Appends the placed rows as a blade; without `drawn` only its vertices.
-void Builder::append(double shoulder, double waist, bool drawn) {
+void Builder::append(double shoulder, double waist, bool drawn, const EdgeCurve& curve) {
     Mesh& mesh = attachment_.mesh;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    append_rows(shoulder, waist);
+    append_rows(shoulder, waist, curve);
     const auto faces = blade_faces(first, rows_.size());
     orient_blade(mesh, first, faces);
     if (drawn)
         for (const auto& face : faces)
             mesh.indices.insert(mesh.indices.end(), face.begin(), face.end());
     rows_.clear();
+}
+
+/// Returns the share of the meridian over which an end of a blade is rounded.
+double rounding(double most, double length) { return std::min(most, 0.25 * length); }
+
+/// Returns the share of the meridian at which a row of a blade stands: some are within its rounded
+/// ends, the others between them.
+double row_share(int row, int segments, double begin, double end) {
+    const double first = rounding(begin_rounding, end - begin),
+                 last = rounding(end_rounding, end - begin);
+    const int rows = std::min(end_rows, (segments - 1) / 2);
+    const auto within = [&](int at) { return at == 0 ? 0.0 : at == rows ? 1.0 : second_row; };
+    if (row <= rows) return begin + first * within(row);
+    if (segments - row <= rows) return end - last * within(segments - row);
+    const double t = static_cast<double>(row - rows) / (segments - 2 * rows);
+    return begin + first +
+           (end - last - begin - first) * (t + row_crowding * (smooth_step(0.0, 1.0, t) - t));
+}
+
+/// Returns the height of a quarter of a circle, which rises from 0 at 0 to 1 at 1 and beyond.
+double rounded(double x) {
+    const double left = 1.0 - std::clamp(x, 0.0, 1.0);
+    return std::sqrt(1.0 - left * left);
 }
 
 // Rows on the stem, up to where the blade begins on the face, for decurrent blades.
@@ -426,6 +530,7 @@ void Builder::plan_stem_rows(const BladeBudget& budget, const SlotBlend& blend, 
         Plan plan;
         plan.along = blend.begin * face_.length() - blend.down * stem_length * (1.0 - up);
         plan.height = beyond * smooth_step(0.0, 1.0, up);
+        plan.half = rising_thickness + (1.0 - rising_thickness) * up;
         // A blade that is hardly decurrent begins in the flesh, where it does in a species that is
         // not.
         plan.buried = std::max(0.0, 1.0 - blend.down / least_decurrence);
@@ -437,24 +542,34 @@ void Builder::plan_stem_rows(const BladeBudget& budget, const SlotBlend& blend, 
 void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
                              const SlotBlend& blend, double beyond) {
     const double length = face_.length();
-    const double begin = blend.begin;
+    const double begin = blend.begin, reach = blend.end - begin;
+    const double decurrent = std::min(1.0, decurrent_thickness * blend.down);
     for (int j = 0; j <= budget.segments; ++j) {
-        const double t = static_cast<double>(j) / budget.segments;
-        const double share =
-            begin + (1.0 - begin) * (t + row_crowding * (smooth_step(0.0, 1.0, t) - t));
+        const double share = row_share(j, budget.segments, begin, blend.end);
         Plan plan;
         plan.along = share * length;
-        for (const SpeciesBlades& w : all) {
+        double risen = 0.0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const SpeciesBlades& w = all[i];
             const Blade& blade = w.on(blend.slot);
             if (blade.presence <= 0.0) continue;
+            const Ripple& own = blend.ripples[i];
             const double rise =
                 blade.rise > 0.0
-                    ? smooth_step(0.0, 1.0, rise_steepness * (share - begin) / blade.rise)
+                    ? smooth_step(0.0, 1.0,
+                                  rise_steepness * (share - begin) / (blade.rise * own.rise))
                     : 1.0;
-            plan.height += w.weight * blade.presence * rise * w.hymenium->depth *
+            risen += w.weight * blade.presence * rise;
+            plan.height += w.weight * blade.presence * rise * own.depth(share) * w.hymenium->depth *
                            attached_depth(*w.hymenium, share) * depth_envelope(*w.hymenium, share);
         }
-        plan.height *= length * face_.at(share).scale;
+        // Both ends are rounded, seen from below and from the side; where a blade continues down the
+        // stem it does not end at its beginning on the face.
+        const double first = rounded((share - begin) / rounding(begin_rounding, reach)),
+                     last = rounded((blend.end - share) / rounding(end_rounding, reach));
+        const double ends = (decurrent + (1.0 - decurrent) * first) * last;
+        plan.half = ends * (rising_thickness + (1.0 - rising_thickness) * risen * blend.each);
+        plan.height *= length * face_.at(share).scale * ends;
         plan.height += beyond * (1.0 - smooth_step(0.0, 1.0, share / protrusion_fades));
         plans_.push_back(plan);
     }
@@ -483,7 +598,7 @@ void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudg
             if (one.size > 0.0) ripple += one.at(share);
         plan.angle =
             rest.angle + left(vanishing_place) * (angle_at(all, blend, share) - rest.angle);
-        plan.half = left(vanishing_width) * std::min(shape.half, available);
+        plan.half *= left(vanishing_width) * std::min(shape.half, available);
         // A blade that is not decurrent begins on the face as sharp as in a set without decurrent
         // species.
         if (&plan - plans_.data() <= budget.below)
@@ -515,37 +630,47 @@ void Builder::blades(const BladeBudget& budget) {
         double most = 0.0;
         for (const Plan& plan : plans_) most = std::max(most, plan.height);
         place_blade(all, budget, shape, blend, most);
-        append(shape.shoulder, shape.waist, most > 0.0 || context_.keep_absent);
+        const EdgeCurve curve{
+            std::min(1.0, decurrent_thickness * blend.down) * (budget.below > 0 ? 1.0 : 0.0),
+            static_cast<std::size_t>(budget.below), curve_reach * length};
+        append(shape.shoulder, shape.waist, most > 0.0 || context_.keep_absent, curve);
     });
 }
 
 // Plans the rows of a cross vein from one ridge to the next.
-void Builder::plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of) {
+void Builder::plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of,
+                        const BladeBudget& budget) {
     const HymeniumOf<Plain>& hymenium = part.model.hymenium;
     const double length = face_.length();
     const double half = vein_width * length / cross_vein_rows(hymenium.blades);
     const double full = part.weight * vein.height * vein_depth * length * hymenium.depth;
     plans_.clear();
-    for (int j = 0; j <= vein_segments; ++j) {
-        const double t = vein_rows[static_cast<std::size_t>(j)];
-        const double share = vein.share + (t - 0.5) * vein.tilt;
+    for (int j = 0; j <= budget.vein_segments; ++j) {
+        // A vein rises from inside one ridge, sags between both and bends along its way.
+        const double t = static_cast<double>(j) / budget.vein_segments;
+        const double middle = 4.0 * t * (1.0 - t);
+        const double share =
+            std::clamp(vein.share + (t - 0.5) * vein.tilt +
+                           vein_bend * vein.tilt * (middle - 0.5) * (2.0 * vein.height - 1.0),
+                       0.0, 1.0);
         const double gaps = vein.ridge + t;
         Plan plan;
         plan.along = share * length;
         plan.angle = 2.0 * pi * row_of.turn({.from = gaps, .to = gaps}, share);
-        plan.height = full * attached_depth(hymenium, share) * depth_envelope(hymenium, share) *
-                      face_.at(share).scale;
-        plan.half = half;
+        plan.height = full * (1.0 - vein_sag * middle) * attached_depth(hymenium, share) *
+                      depth_envelope(hymenium, share) * face_.at(share).scale;
+        plan.half = half * (1.0 - vein_narrowing * middle);
         plans_.push_back(plan);
     }
 }
 
 // Places the planned rows of a vein, of which `most` is the largest height.
-void Builder::place_vein(const CrossVein& vein, double most) {
+void Builder::place_vein(const CrossVein& vein, double most, const BladeBudget& budget) {
     const double length = face_.length();
     const auto left = [&](double whole) { return std::min(1.0, most / (whole * length + 1e-12)); };
+    const std::size_t half = plans_.size() / 2;
     const Attachment::FacePoint rest =
-        attachment_.nearest_vertex(vein.share, 0.5 * (plans_[1].angle + plans_[2].angle));
+        attachment_.nearest_vertex(vein.share, 0.5 * (plans_[half - 1].angle + plans_[half].angle));
     for (Plan& plan : plans_) {
         plan.along =
             length * rest.share + left(vanishing_vein) * (plan.along - length * rest.share);
@@ -557,8 +682,8 @@ void Builder::place_vein(const CrossVein& vein, double most) {
         const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
                                  rows_[j == 0 ? 0 : j - 1].root.position;
         // A vein is thick along the meridian; its texture runs along its length.
-        rows_[j].share =
-            vein.share + vein_texture_length * (static_cast<double>(j) / vein_segments - 0.5);
+        rows_[j].share = vein.share + vein_texture_length *
+                                          (static_cast<double>(j) / budget.vein_segments - 0.5);
         rows_[j].root.azimuth =
             unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
     }
@@ -575,11 +700,11 @@ void Builder::veins(const BladeBudget& budget) {
             slot_assignment(0, HymeniumPattern::ridges, hymenium.blades, hymenium.tiers),
             HymeniumPattern::ridges, hymenium.forking, seed, hymenium.blades << hymenium.tiers);
         for (const CrossVein& vein : all) {
-            plan_vein(part, vein, row_of);
+            plan_vein(part, vein, row_of, budget);
             double most = 0.0;
             for (const Plan& plan : plans_) most = std::max(most, plan.height);
-            place_vein(vein, most);
-            append(vein_shoulder, vein_waist, most > 0.0 || context_.keep_absent);
+            place_vein(vein, most, budget);
+            append(vein_shoulder, vein_waist, most > 0.0 || context_.keep_absent, EdgeCurve{});
         }
     }
 }
@@ -594,15 +719,29 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     const int max_triangles = beside_pores ? most_blade_triangles / 6 : most_blade_triangles;
     budget.tiers = individual.blade_tiers;
     budget.below = individual.runs_down ? stem_segments : 0;
-    // Rows on the stem are dropped first, then the shortest blades.
+    budget.segments = face_segments;
+    budget.vein_segments = vein_segments;
+    // Rows are dropped first, then the shortest blades.
     const auto too_many = [&] {
-        return (gill_layout.blades << budget.tiers) * triangles_of(face_segments + budget.below) >
+        return (gill_layout.blades << budget.tiers) * triangles_of(budget.segments + budget.below) >
                max_triangles;
     };
+    while (too_many() && drop_row(budget)) continue;
     while (budget.below > 1 && too_many()) --budget.below;
     while (budget.tiers > 0 && too_many()) --budget.tiers;
-    budget.segments = face_segments;
     return budget;
+}
+
+bool drop_row(BladeBudget& budget) {
+    if (budget.segments > usual_segments)
+        --budget.segments;
+    else if (budget.below > usual_below)
+        --budget.below;
+    else if (budget.vein_segments > usual_vein_segments)
+        --budget.vein_segments;
+    else
+        return false;
+    return true;
 }
 
 bool coarsen(const Individual& individual, BladeBudget& budget) {
@@ -624,8 +763,10 @@ MeshCount solid_count(const Individual& individual, const BladeBudget& budget) {
         count.vertices += row_corners * static_cast<std::uint64_t>(segments + 1);
         count.triangles += static_cast<std::uint64_t>(triangles_of(segments));
     });
-    count.vertices += row_corners * static_cast<std::uint64_t>(budget.veins * (vein_segments + 1));
-    count.triangles += static_cast<std::uint64_t>(budget.veins * triangles_of(vein_segments));
+    count.vertices +=
+        row_corners * static_cast<std::uint64_t>(budget.veins * (budget.vein_segments + 1));
+    count.triangles +=
+        static_cast<std::uint64_t>(budget.veins * triangles_of(budget.vein_segments));
     return count;
 }
 

@@ -174,6 +174,8 @@ HWY_INLINE void add_slots(const HymeniumPlan& plan, const DiscPoint& p, VF share
     const VF carried = one - (one - smooth(share, 0.55F * plan.inner_gap, plan.bare_slope)) *
                                  set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
     depth = depth * carried;
+    // Before the margin they end, and leave a narrow smooth rim.
+    if (plan.pattern <= 2) depth = depth * (one - smooth(share, 0.93F, 16.0F));
     VF deep = depth * depth;
     // Towards the rim gills and ridges are low, and light reaches the bottom between them.
     if (plan.pattern <= 2) deep = deep * (one - smooth(share, 0.72F, 4.0F) * set(0.75F));

