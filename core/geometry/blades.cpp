@@ -20,7 +20,7 @@ namespace {
 
 // Rows of a blade on the face. They are equal in all but large sets, so that weight 1 reproduces
 // the single-species mesh.
-constexpr int face_segments = 10, usual_segments = 6, least_segments = 3;
+constexpr int face_segments = 11, usual_segments = 6, least_segments = 3;
 constexpr int stem_segments = 3, usual_below = 2;
 constexpr int most_blade_triangles = 36000;
 constexpr std::size_t row_corners = 6;
@@ -35,8 +35,8 @@ constexpr double least_decurrence = 0.01;
 constexpr double vanishing_place = 0.003, vanishing_width = 0.004, vanishing_length = 0.015,
                  vanishing_embedding = 0.01, vanishing_vein = 0.006;
 
-// Share by which rows of a blade are moved towards its ends, where its edge is most curved.
-constexpr double row_crowding = 0.5;
+// Share by which rows of a blade are moved towards the stem, where its edge is most curved.
+constexpr double row_crowding = 0.55;
 
 // Shortest part of a decurrent blade on the stem, in that of the longest: blades do not end in a line.
 constexpr double shortest_down = 0.25;
@@ -512,8 +512,7 @@ double row_share(int row, int segments, double begin, double end) {
     if (row <= rows) return begin + first * within(row);
     if (segments - row <= rows) return end - last * within(segments - row);
     const double t = static_cast<double>(row - rows) / (segments - 2 * rows);
-    return begin + first +
-           (end - last - begin - first) * (t + row_crowding * (smooth_step(0.0, 1.0, t) - t));
+    return begin + first + (end - last - begin - first) * t * (1.0 - row_crowding * (1.0 - t));
 }
 
 /// Returns the height of a quarter of a circle, which rises from 0 at 0 to 1 at 1 and beyond.

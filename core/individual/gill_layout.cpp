@@ -77,10 +77,11 @@ double Wander::at(double turn, double share) const {
 
 Wander wander_of(std::uint32_t seed) {
     Random random(seed, purposes::wander);
-    constexpr std::array<int, 4> counts = {2, 5, 11, 19};
-    constexpr std::array<double, 4> sizes = {0.34, 0.30, 0.22, 0.14};
+    // The shortest waves are about as long as gaps are wide, so that neighbouring gaps differ.
+    constexpr std::array<int, 6> counts = {2, 5, 11, 19, 31, 47};
+    constexpr std::array<double, 6> sizes = {0.30, 0.26, 0.18, 0.10, 0.10, 0.06};
     Wander wander;
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < wander.waves.size(); ++i) {
         const double lean = random.symmetric();
         const double phase = random.uniform();
         wander.waves[i] = {counts[i], 1.6 * lean, sizes[i], phase};

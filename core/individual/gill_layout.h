@@ -63,7 +63,7 @@ inline constexpr std::array<double, 2> fork_begins = {0.24, 0.66}, fork_strays =
 inline constexpr double fork_swing = 3.2, fork_missing = 1.1;
 /// Amplitude of the deviation of gills and ridges from their meridian, in turns, per unit of
 /// Wander.
-inline constexpr double gill_wander = 0.0016, ridge_wander = 0.011;
+inline constexpr double gill_wander = 0.0055, ridge_wander = 0.011;
 /// Steps of the golden section distribute any share of a tier's blades as evenly as possible.
 inline constexpr double golden_step = 0.61803399;
 
@@ -74,7 +74,7 @@ struct Wander {
         int count = 1;
         double lean = 0.0, size = 0.0, phase = 0.0;
     };
-    std::array<Wave, 4> waves;
+    std::array<Wave, 6> waves;
 
     /// Returns the deviation, -1..1, at a turn round the axis, 0..1, and a share of the meridian,
     /// 0..1.

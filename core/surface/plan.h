@@ -123,7 +123,7 @@ struct GillLayoutPlan {
     // On the gill layout of a set with more blades there are `slots` slots for `stands` blades, and
     // every `stride`-th blade reaches the stem. 0 slots: the blades are evenly spaced.
     float slots = 0.0F, occupied = 0.0F, stride = 1.0F;
-    std::array<WavePlan, 4> wander{};
+    std::array<WavePlan, 6> wander{};
     float bend = 0.0F;  ///< amplitude of the displacement, in turns
 };
 
