@@ -104,9 +104,9 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     budget.count = total();
     const std::uint64_t limit = triangle_limit(level);
     while (budget.count.triangles > limit &&
-           ((solids && drop_row(budget.blades)) || drop_surplus(budget.ornaments) ||
-            drop_ground(individual, budget.ornaments) || coarsen(budget.ornaments, level) ||
-            (solids && coarsen(individual, budget.blades)) ||
+           ((solids && (drop_row(budget.blades) || drop_row(budget.cells))) ||
+            drop_surplus(budget.ornaments) || drop_ground(individual, budget.ornaments) ||
+            coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
             (!solids && drop_patches(budget.ornaments, level)) ||
             drop_free_solids(individual, budget.ornaments)))
         budget.count = total();

@@ -13,8 +13,14 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int spine_sides = 5;
-constexpr int spine_triangles = 2 * spine_sides - 2;
+constexpr int spine_sides = 4;
+
+/// Rings of corners of a spine between its base and its tip: with one it is an awl that hangs in a
+/// curve, without one a cone.
+constexpr int spine_rings = 1;
+int spine_triangles(const CellBudget& budget) {
+    return spine_sides * (2 * budget.rings + 1) + spine_sides - 2;
+}
 
 /// Rings of corners of a pore: outer base, rim, inner base.
 constexpr int pore_rings = 3;
@@ -25,10 +31,14 @@ constexpr int pore_rings = 3;
 /// nearest vertex.
 constexpr double vanishing_depth = 0.01;
 
-/// Largest deviation of the size of spines; radius at the base of the steepest one and the sideways
-/// displacement of its tip, in heights; how much of the latter is along the meridian.
-constexpr double spine_deviation = 0.25, steepest_spine = 0.45, spine_lean = 0.12,
+/// Length of the shortest spine relative to that of the longest,; radius at the base of the steepest one and the sideways displacement of its
+/// tip, in heights; how much of the latter is along the meridian.
+constexpr double shortest_spine = 0.4, steepest_spine = 0.45, spine_lean = 0.12,
                  spine_lean_out = 0.6;
+
+/// Share of the vertical in the direction of the tip of a spine on a face that looks down, and the
+/// height of the ring of an awl and its radius, in those of the spine.
+constexpr double hanging = 0.6, ring_height = 0.5, ring_radius = 0.78;
 
 /// Radius of a pore in widths of its cell, slightly more than half, so that neighbours meet; radii
 /// of both sides of its wall as shares of that.
@@ -93,37 +103,53 @@ void add_cells_of(const Attachment& attachment, HymeniumPattern pattern, const S
     }
 }
 
-double spine_size(const CellPlace& place) { return 1.0 + spine_deviation * place.lot; }
+// Returns the length of a spine relative to that of the longest: short ones are rarer.
+double spine_size(const CellPlace& place) {
+    const double u = 0.5 - 0.5 * place.lot;
+    return 1.0 - (1.0 - shortest_spine) * u * u;
+}
 
-// Appends a spine: a cone, whose base is closed by a polygon.
-void add_spine(const Attachment& attachment, const PlacedCell& cell) {
+// Appends a spine, whose base is closed by a polygon. It begins square to the face, and its tip hangs.
+void add_spine(const Attachment& attachment, const CellBudget& budget, const PlacedCell& cell) {
     constexpr int sides = spine_sides;
     const auto& [place, hymenium, root, down, round, out, width, height] = cell;
     const double radius =
-        std::min(0.5 * hymenium.thickness * width * (0.9 + 0.1 * spine_size(place)),
+        std::min(0.5 * hymenium.thickness * width * (0.8 + 0.2 * spine_size(place)),
                  steepest_spine * height + 1e-9);
     const glm::dvec3 lean =
         spine_lean * height * (place.lot * round - spine_lean_out * place.lot * out);
+    const glm::dvec3 vertical(0.0, -1.0, 0.0);
+    const double facing = hanging * smooth_step(0.0, 1.0, glm::dot(down, vertical));
+    const double size = std::sqrt(glm::dot(root.meridian, root.meridian));
+    const glm::dvec3 hung =
+        height * size * unit_or((1.0 - facing) * down + facing * vertical, down) + lean;
+    const auto rows = static_cast<std::size_t>(budget.rings) + 2;
     const std::size_t first = attachment.mesh.positions.size();
-    for (const double up : {0.0, 1.0}) {
-        const double wide = 1.0 - up;
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double up = i == 0 ? 0.0 : i + 1 == rows ? 1.0 : ring_height;
+        const double wide = i == 0 ? 1.0 : i + 1 == rows ? 0.0 : ring_radius;
+        const glm::dvec3 middle =
+            root.position + up * ((1.0 - up) * height * root.meridian + up * hung);
         for (int j = 0; j <= sides; ++j) {
             const auto turn = sine_cosine(2.0 * pi * (j % sides) / sides);
             const glm::dvec3 aside = turn.cosine * round + turn.sine * out;
             const glm::dvec3 normal = unit_or(aside + (0.25 + 0.9 * up * up) * down, down);
             attachment.add_vertex(
-                root.position + up * (height * root.meridian + lean) + wide * radius * aside,
-                normal, turn.cosine * out - turn.sine * round,
+                middle + wide * radius * aside, normal, turn.cosine * out - turn.sine * round,
                 place.share + cell_texture_width * (static_cast<double>(j) / sides - 0.5), up,
                 -1.0F);
         }
     }
-    const auto add = [&](int a, int b, int c) {
-        append_triangle(attachment.mesh, first + static_cast<std::size_t>(a),
-                        first + static_cast<std::size_t>(b), first + static_cast<std::size_t>(c));
+    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+        append_triangle(attachment.mesh, first + a, first + b, first + c);
     };
-    for (int j = 0; j < sides; ++j) add(j, j + 1, j + sides + 1);
-    for (int j = 1; j + 1 < sides; ++j) add(0, j + 1, j);
+    constexpr std::size_t row = spine_sides + 1;
+    for (std::size_t i = 0; i + 1 < rows; ++i)
+        for (std::size_t j = i * row; j + 1 < (i + 1) * row; ++j) {
+            add(j, j + 1, j + row);
+            if (i + 2 < rows) add(j + 1, j + row + 1, j + row);
+        }
+    for (std::size_t j = 1; j + 2 < row; ++j) add(0, j + 1, j);
 }
 
 // Appends a pore, the mouth of a tube: a ring of flesh from the flesh between tubes to the rim and
@@ -178,22 +204,27 @@ CellBudget cell_budget(const Individual& individual) {
             cell_count(part.cells);
     shares.corners = shares.pores <= 1000 ? 6 : 4;
     shares.walls = shares.pores <= 1500;
+    shares.rings = spine_rings;
     return shares;
 }
 
 MeshCount solid_count(const CellBudget& budget) {
-    return {static_cast<std::uint64_t>(budget.spines * 2 * (spine_sides + 1)) +
+    return {static_cast<std::uint64_t>(budget.spines * (budget.rings + 2) * (spine_sides + 1)) +
                 static_cast<std::uint64_t>(budget.pores * (pore_rings + 1) * (budget.corners + 1)),
-            static_cast<std::uint64_t>(budget.spines * spine_triangles) +
+            static_cast<std::uint64_t>(budget.spines * spine_triangles(budget)) +
                 static_cast<std::uint64_t>(budget.pores * pore_triangles(budget))};
+}
+
+bool drop_row(CellBudget& budget) {
+    if (budget.spines == 0 || budget.rings == 0) return false;
+    --budget.rings;
+    return true;
 }
 
 void add_cells(const Attachment& attachment, const CellBudget& budget) {
     if (budget.spines > 0)
-        add_cells_of(
-            attachment, HymeniumPattern::teeth,
-            [](const CellPlace& place) { return std::min(spine_size(place), 1.0); },
-            [&](const PlacedCell& cell) { add_spine(attachment, cell); });
+        add_cells_of(attachment, HymeniumPattern::teeth, spine_size,
+                     [&](const PlacedCell& cell) { add_spine(attachment, budget, cell); });
     if (budget.pores > 0)
         add_cells_of(
             attachment, HymeniumPattern::pores, [](const CellPlace&) { return 1.0; },
