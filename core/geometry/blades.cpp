@@ -102,6 +102,9 @@ constexpr double shoulder_lean = 0.4;
 // Rise of a short blade from its beginning, relative to that of the gill layout.
 constexpr double rise_steepness = 0.85;
 
+// Share of the blades' image along which one blade reaches.
+constexpr double image_window = 0.6;
+
 // Share of a blade's length after which its middle lies.
 constexpr double blade_middle = 0.6;
 
@@ -195,6 +198,7 @@ struct Ripple {
     double start, finish;        ///< 0..1: how late it begins at the stem, how early it ends
     double shallow;              ///< 0..1: how much shallower than others it is
     double undulations, offset;  ///< waves of its edge
+    double image;                ///< 0..1: place of its window of the blades' image
     double rise;                 ///< factor on the length over which a short blade rises
 
     Ripple(std::uint32_t seed, int number, double with_size) : size(with_size) {
@@ -209,6 +213,7 @@ struct Ripple {
         undulations = random.uniform(least_undulations, most_undulations);
         offset = random.uniform();
         rise = random.uniform(shortest_rise, longest_rise);
+        image = random.uniform();
     }
     /// Returns the depth of its edge at a share of the meridian, relative to that of the species.
     [[nodiscard]] double depth(double share) const {
@@ -257,6 +262,7 @@ struct SlotBlend {
     double begin = 0.0;       ///< on the meridian, 0 at the stem
     double end = 1.0;         ///< the same, 1 at the margin
     double down = 0.0;        ///< share of the stem's length that the blade covers
+    double image = 0.0;       ///< where its window of the blades' image begins
     double protruding = 0.0;  ///< depth beyond the outline where the blade is decurrent
     std::vector<Ripple> ripples;
 };
@@ -274,6 +280,7 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
         blend.present += here;
         const Ripple& own = blend.ripples.back();
         blend.begin += here * std::max(blade.begin, w.hymenium->inner_gap);
+        blend.image += here * (1.0 - image_window) * own.image;
         blend.end -= here * (ends_before + ends_within * own.finish);
         if (blade.begin > 0.0) continue;
         blend.begin += here * begins_within * own.start * (1.0 - decurrence(*w.hymenium));
@@ -283,6 +290,7 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
     blend.each = blend.present > 0.0 ? 1.0 / blend.present : 0.0;
     blend.begin = blend.present > 0.0 ? std::min(blend.begin * blend.each, last_begin) : 0.5;
     blend.end = std::max(1.0 - (1.0 - blend.end) * blend.each, 0.5 * (1.0 + blend.begin));
+    blend.image *= blend.each;
     blend.down = std::min(blend.down * blend.each, most_down);
     return blend;
 }
@@ -632,6 +640,7 @@ void Builder::blades(const BladeBudget& budget) {
         const EdgeCurve curve{
             std::min(1.0, decurrent_thickness * blend.down) * (budget.below > 0 ? 1.0 : 0.0),
             static_cast<std::size_t>(budget.below), curve_reach * length};
+        for (Row& row : rows_) row.share = blend.image + image_window * row.share;
         append(shape.shoulder, shape.waist, most > 0.0 || context_.keep_absent, curve);
     });
 }

@@ -129,11 +129,13 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
 HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
     const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow,
                                   plan.pore_tall, cell_jitter, plan.seed[5]);
-    // Each tube has its own width.
-    const VF width = set(0.16F) + set(0.06F) * lower_part(hash(cell.id));
+    // Each tube has its own width, and is more or less filled.
+    const VU drawn = hash(cell.id);
+    const VF width = set(0.17F) + set(0.10F) * lower_part(drawn);
+    const VF open = set(0.78F) + set(0.22F) * lower_part(hash(drawn));
     Slot slot;
     slot.depth = unit((cell.border - width * set(0.6F)) * set(3.4F));
-    slot.depth = slot.depth * slot.depth * (set(3.0F) - set(2.0F) * slot.depth);
+    slot.depth = slot.depth * slot.depth * (set(3.0F) - set(2.0F) * slot.depth) * open;
     slot.visible = set(plan.pore_shown);
     return slot;
 }
@@ -183,10 +185,13 @@ HWY_INLINE void add_slots(const HymeniumPlan& plan, const DiscPoint& p, VF share
     const VF on_edge =
         (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +
         (one - slot.visible) * set(0.2F) - (one - carried);
-    texel.colour = mix(texel.colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
+    // Light reaches the flesh between spines, which stand apart.
+    const float between = plan.pattern == 4 ? 0.5F : 1.0F;
+    texel.colour =
+        mix(texel.colour, rgb(plan.depth), deep * set(between * (0.35F + 0.65F * plan.relief)));
     texel.colour = mix(texel.colour, rgb(plan.edge), unit(on_edge));
-    texel.occlusion = texel.occlusion *
-                      mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
+    texel.occlusion = texel.occlusion * mix(one, set(plan.slot_occlusion),
+                                            deep * (set(0.5F) + set(0.5F) * depth) * set(between));
     const VF period = plan.pattern >= 3
                           ? set(1.0F / plan.pore_rows)
                           : p.radius * set(6.2831853F / static_cast<float>(plan.layout.blades));
@@ -288,6 +293,10 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
             add_cracks(plan, p, share, fields, 2.3F, 0.45F, plan.seed[2], texel);
         }
     } else {
+        // Pores are darker in patches, where they are more open or bruised.
+        if (plan.pattern == 3)
+            texel.colour =
+                mix(texel.colour, rgb(plan.depth), unit(cloud * set(0.7F * plan.mottle)));
         add_slots(plan, p, share, texel);
     }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);

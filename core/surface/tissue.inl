@@ -24,6 +24,8 @@ HWY_INLINE Texel blade_texel(const BladePlan& plan, VF along, VF across, const V
     Texel out;
     const VF down = unit(across);
     const VF cloud = fields[blade_uneven] * set(0.7F) + fields[blade_cloud] * set(0.5F);
+    // Blades show different windows of the strip, so slow changes along it tell one from another.
+    const VF tone = noise2(along * set(4.0F), across * set(0.35F), plan.seed[3]);
     // Faint lines run from the base towards the edge, and fade out before they reach it.
     const VF line = noise2(along * set(blade_grain) + fields[blade_cloud] * set(0.8F),
                            across * set(2.2F), plan.seed[2]) *
@@ -35,13 +37,15 @@ HWY_INLINE Texel blade_texel(const BladePlan& plan, VF along, VF across, const V
     const VF open = one - d / hn::Sqrt(d * d + one);
     const VF seen = open / (one - set(plan.pale) * (one - open));
     Rgb colour = mix(rgb(plan.colour), rgb(plan.depth),
-                     (one - seen) * set(0.55F * (1.0F - 0.5F * plan.pale)));
+                     (one - seen) * set(0.75F * (1.0F - 0.3F * plan.pale)));
+    colour = mix(colour, rgb(plan.depth), unit(tone * set(-0.5F)) * set(0.6F));
     colour = mix(colour, rgb(plan.edge), on_edge);
-    out.colour = shaded(
-        colour, hn::Max(one + cloud * set(0.20F * plan.mottle) + line * set(0.07F), set(0.05F)));
-    out.height = line * set(0.10F / blade_grain) + fields[blade_cloud] * set(0.0015F);
+    out.colour = shaded(colour, hn::Max(one + cloud * set(0.20F * plan.mottle) + tone * set(0.09F) +
+                                            line * set(0.12F),
+                                        set(0.05F)));
+    out.height = line * set(0.16F / blade_grain) + fields[blade_cloud] * set(0.0015F);
     out.roughness = set(plan.roughness) + line * set(0.04F);
-    out.occlusion = set(0.12F + 0.25F * plan.pale) + set(0.88F - 0.25F * plan.pale) * seen;
+    out.occlusion = set(0.12F + 0.45F * plan.pale) + set(0.88F - 0.45F * plan.pale) * seen;
     return out;
 }
 
