@@ -48,7 +48,7 @@ constexpr double begins_within = 0.035, ends_before = 0.006, ends_within = 0.022
 
 // Shares of the meridian over which a blade that is not decurrent, and the outer end of each, are
 // rounded.
-constexpr double begin_rounding = 0.035, end_rounding = 0.045;
+constexpr double begin_rounding = 0.035, end_rounding = 0.045, ridge_end = 0.24;
 
 // Rows of a blade within either rounded end, and the share of it after which the second one stands.
 constexpr int end_rows = 2;
@@ -56,7 +56,7 @@ constexpr double second_row = 0.22;
 
 // Largest part of its depth by which a blade is shallower than others, and by which its edge is
 // eroded between undulations; undulations from stem to margin.
-constexpr double shallower = 0.12, eroded = 0.1, least_undulations = 1.7, most_undulations = 3.6;
+constexpr double shallower = 0.12, eroded = 0.1, least_undulations = 1.0, most_undulations = 2.4;
 
 // Length of the rise of a short blade, relative to that of the gill layout, and its thickness
 // where it begins, relative to that where it has its whole height.
@@ -75,7 +75,7 @@ constexpr double usable_gap = 0.62;
 constexpr double ripple_size = 0.275;
 
 // Waves of a ripple from stem to margin, random, and factor on them for the second wave.
-constexpr double least_ripples = 1.6, most_ripples = 3.4, second_ripple = 2.7;
+constexpr double least_ripples = 1.0, most_ripples = 2.2, second_ripple = 1.7;
 
 // Shares of the meridian at stem and margin over which ripples fade out.
 constexpr double ripple_begins = 0.15, ripple_ends = 0.2;
@@ -120,7 +120,7 @@ constexpr double vein_texture_length = 0.06;
 
 // Depth of a cross vein of full height, relative to that of ridges; the shares of it and of the
 // width that are missing half-way; and how far a vein bends, in its tilt.
-constexpr double vein_depth = 0.42, vein_sag = 0.3, vein_narrowing = 0.4, vein_bend = 0.35;
+constexpr double vein_depth = 0.46, vein_sag = 0.15, vein_narrowing = 0.25, vein_bend = 0.35;
 
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
@@ -217,7 +217,8 @@ struct Ripple {
     }
     /// Returns the depth of its edge at a share of the meridian, relative to that of the species.
     [[nodiscard]] double depth(double share) const {
-        const double wave = 0.5 + 0.5 * cubic_wave(undulations * share * (1.0 + share) + offset);
+        const double wave =
+            0.5 + 0.5 * cubic_wave(undulations * share * (1.0 + 0.5 * share) + offset);
         return 1.0 - shallower * shallow - eroded * shallow * wave;
     }
     [[nodiscard]] double at(double share) const {
@@ -256,14 +257,15 @@ BladeShape blade_shape(const std::vector<SpeciesBlades>& all, double rim) {
 /// The blades of all species on one slot, combined by weight and presence.
 struct SlotBlend {
     int slot = 0;
-    double even = 0.0;        ///< position of the slot, in turns
-    double present = 0.0;     ///< sum of weight times presence
-    double each = 0.0;        ///< 1 / present, or 0
-    double begin = 0.0;       ///< on the meridian, 0 at the stem
-    double end = 1.0;         ///< the same, 1 at the margin
-    double down = 0.0;        ///< share of the stem's length that the blade covers
-    double image = 0.0;       ///< where its window of the blades' image begins
-    double protruding = 0.0;  ///< depth beyond the outline where the blade is decurrent
+    double even = 0.0;         ///< position of the slot, in turns
+    double present = 0.0;      ///< sum of weight times presence
+    double each = 0.0;         ///< 1 / present, or 0
+    double begin = 0.0;        ///< on the meridian, 0 at the stem
+    double end = 1.0;          ///< the same, 1 at the margin
+    double rounded_end = 0.0;  ///< share of the meridian over which its outer end is rounded
+    double down = 0.0;         ///< share of the stem's length that the blade covers
+    double image = 0.0;        ///< where its window of the blades' image begins
+    double protruding = 0.0;   ///< depth beyond the outline where the blade is decurrent
     std::vector<Ripple> ripples;
 };
 
@@ -281,6 +283,7 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
         const Ripple& own = blend.ripples.back();
         blend.begin += here * std::max(blade.begin, w.hymenium->inner_gap);
         blend.image += here * (1.0 - image_window) * own.image;
+        blend.rounded_end += here * (w.ridges ? ridge_end : end_rounding);
         blend.end -= here * (ends_before + ends_within * own.finish);
         if (blade.begin > 0.0) continue;
         blend.begin += here * begins_within * own.start * (1.0 - decurrence(*w.hymenium));
@@ -289,6 +292,7 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
     }
     blend.each = blend.present > 0.0 ? 1.0 / blend.present : 0.0;
     blend.begin = blend.present > 0.0 ? std::min(blend.begin * blend.each, last_begin) : 0.5;
+    blend.rounded_end *= blend.each;
     blend.end = std::max(1.0 - (1.0 - blend.end) * blend.each, 0.5 * (1.0 + blend.begin));
     blend.image *= blend.each;
     blend.down = std::min(blend.down * blend.each, most_down);
@@ -512,9 +516,9 @@ double rounding(double most, double length) { return std::min(most, 0.25 * lengt
 
 /// Returns the share of the meridian at which a row of a blade stands: some are within its rounded
 /// ends, the others between them.
-double row_share(int row, int segments, double begin, double end) {
+double row_share(int row, int segments, double begin, double end, double rounded_end) {
     const double first = rounding(begin_rounding, end - begin),
-                 last = rounding(end_rounding, end - begin);
+                 last = rounding(rounded_end, end - begin);
     const int rows = std::min(end_rows, (segments - 1) / 2);
     const auto within = [&](int at) { return at == 0 ? 0.0 : at == rows ? 1.0 : second_row; };
     if (row <= rows) return begin + first * within(row);
@@ -552,7 +556,7 @@ void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeB
     const double begin = blend.begin, reach = blend.end - begin;
     const double decurrent = std::min(1.0, decurrent_thickness * blend.down);
     for (int j = 0; j <= budget.segments; ++j) {
-        const double share = row_share(j, budget.segments, begin, blend.end);
+        const double share = row_share(j, budget.segments, begin, blend.end, blend.rounded_end);
         Plan plan;
         plan.along = share * length;
         double risen = 0.0;
@@ -573,7 +577,7 @@ void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeB
         // Both ends are rounded, seen from below and from the side; where a blade continues down the
         // stem it does not end at its beginning on the face.
         const double first = rounded((share - begin) / rounding(begin_rounding, reach)),
-                     last = rounded((blend.end - share) / rounding(end_rounding, reach));
+                     last = rounded((blend.end - share) / rounding(blend.rounded_end, reach));
         const double ends = (decurrent + (1.0 - decurrent) * first) * last;
         plan.half = ends * (rising_thickness + (1.0 - rising_thickness) * risen * blend.each);
         plan.height *= length * face_.at(share).scale * ends;

@@ -15,6 +15,9 @@ namespace {
 // greatest number of blades per gap between those that reach the stem
 constexpr int most_between = 16;
 
+// Share of the meridian over which a fork rises, hidden in the ridge from which it swings out.
+constexpr double fork_rise = 0.09;
+
 // One lane of the hash of core/math/noise.inl.
 constexpr std::uint32_t prime_x = 0x9E3779B1U, prime_y = 0x85EBCA77U;
 
@@ -80,11 +83,13 @@ Wander wander_of(std::uint32_t seed) {
     // The shortest waves are about as long as gaps are wide, so that neighbouring gaps differ.
     constexpr std::array<int, 6> counts = {2, 5, 11, 19, 31, 47};
     constexpr std::array<double, 6> sizes = {0.30, 0.26, 0.18, 0.10, 0.10, 0.06};
+    // Short waves lean little, so that blades do not zigzag between neighbours.
+    constexpr std::array<double, 6> leans = {1.1, 1.1, 0.8, 0.4, 0.3, 0.3};
     Wander wander;
     for (std::size_t i = 0; i < wander.waves.size(); ++i) {
         const double lean = random.symmetric();
         const double phase = random.uniform();
-        wander.waves[i] = {counts[i], 1.6 * lean, sizes[i], phase};
+        wander.waves[i] = {counts[i], leans[i] * lean, sizes[i], phase};
     }
     return wander;
 }
@@ -124,7 +129,8 @@ BladeRow::BladeRow(const SlotAssignment& assignment, HymeniumPattern pattern, do
                     fork_begins[i] + (1.0 - forking) * fork_missing + chance * fork_strays[i];
                 const double gap = 1.0 / (1 << level), left = k * gap;
                 Blade fork{.presence = smooth_step(0.0, 1.0, (1.0 - begin) / 0.12),
-                           .begin = std::min(begin, 1.0)};
+                           .begin = std::min(begin, 1.0),
+                           .rise = fork_rise};
                 fork.from = side < 0.0 ? left : left + gap;
                 fork.to = left + 0.5 * gap;
                 put(fork.to, fork);
