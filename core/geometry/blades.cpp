@@ -65,6 +65,9 @@ constexpr double shortest_rise = 1.0, longest_rise = 2.3, rising_thickness = 0.4
 // Share of the meridian up to which the edge of a decurrent blade is a curve from the stem.
 constexpr double curve_reach = 0.3;
 
+// Height by which the curve lies beyond the edge from which on it is followed, in that of the blade.
+constexpr double least_filling = 0.12;
+
 // Share of the meridian over which the part of a decurrent blade beyond the outline ends.
 constexpr double protrusion_fades = 0.25;
 
@@ -100,7 +103,7 @@ constexpr double shallow = 0.01;
 constexpr double shoulder_lean = 0.4;
 
 // Rise of a short blade from its beginning, relative to that of the gill layout.
-constexpr double rise_steepness = 0.85;
+constexpr double rise_steepness = 0.65;
 
 // Share of the blades' image along which one blade reaches.
 constexpr double image_window = 0.6;
@@ -421,7 +424,11 @@ std::vector<glm::dvec3> Builder::edge_offsets(const EdgeCurve& curve) const {
         const double u = std::clamp((rows_[j].along - rows_[0].along) / span, 0.0, 1.0);
         const glm::dvec3 point =
             (1.0 - u) * (1.0 - u) * from + 2.0 * u * (1.0 - u) * corner + u * u * to;
-        offsets[j] = curve.strength * (point - edge(j));
+        // Where the outline bends the other way, the edge stays where it is.
+        const glm::dvec3 offset = point - edge(j);
+        const double outwards = glm::dot(offset, rows_[j].root.meridian) /
+                                (least_filling * std::max(rows_[j].height, 1e-9));
+        offsets[j] = curve.strength * std::clamp(outwards, 0.0, 1.0) * offset;
     }
     return offsets;
 }
@@ -511,15 +518,18 @@ void Builder::append(double shoulder, double waist, bool drawn, const EdgeCurve&
     rows_.clear();
 }
 
-/// Returns the share of the meridian over which an end of a blade is rounded.
-double rounding(double most, double length) { return std::min(most, 0.25 * length); }
+/// Returns the share of the meridian over which an end of a blade is rounded: more than 0, also where a
+/// species has no blade.
+double rounding(double most, double length) {
+    return std::max(std::min(most, 0.25 * length), 1e-6);
+}
 
 /// Returns the share of the meridian at which a row of a blade stands: some are within its rounded
 /// ends, the others between them.
 double row_share(int row, int segments, double begin, double end, double rounded_end) {
     const double first = rounding(begin_rounding, end - begin),
                  last = rounding(rounded_end, end - begin);
-    const int rows = std::min(end_rows, (segments - 1) / 2);
+    const int rows = std::min(end_rows, (segments - 2) / 4);
     const auto within = [&](int at) { return at == 0 ? 0.0 : at == rows ? 1.0 : second_row; };
     if (row <= rows) return begin + first * within(row);
     if (segments - row <= rows) return end - last * within(segments - row);
@@ -609,12 +619,13 @@ void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudg
             if (one.size > 0.0) ripple += one.at(share);
         plan.angle =
             rest.angle + left(vanishing_place) * (angle_at(all, blend, share) - rest.angle);
+        const double relative = plan.half;
         plan.half *= left(vanishing_width) * std::min(shape.half, available);
         // A blade that is not decurrent begins on the face as sharp as in a set without decurrent
         // species.
         if (&plan - plans_.data() <= budget.below)
             plan.half *= std::min(1.0, decurrent_thickness * blend.down);
-        plan.stray = left(vanishing_width) * ripple_size * blend.each *
+        plan.stray = left(vanishing_width) * ripple_size * blend.each * relative *
                      std::min(available, 3.0 * shape.half) * ripple *
                      smooth_step(0.0, 1.0, share / ripple_begins) *
                      smooth_step(0.0, 1.0, (1.0 - share) / ripple_ends);
@@ -644,7 +655,11 @@ void Builder::blades(const BladeBudget& budget) {
         const EdgeCurve curve{
             std::min(1.0, decurrent_thickness * blend.down) * (budget.below > 0 ? 1.0 : 0.0),
             static_cast<std::size_t>(budget.below), curve_reach * length};
-        for (Row& row : rows_) row.share = blend.image + image_window * row.share;
+        // On the image a blade begins where it does on the stem.
+        const double below = std::min(rows_.front().along / std::max(length, 1e-12), 0.0);
+        for (Row& row : rows_)
+            row.share = blend.image + image_window * (row.along / std::max(length, 1e-12) - below) /
+                                          (1.0 - below);
         append(shape.shoulder, shape.waist, most > 0.0 || context_.keep_absent, curve);
     });
 }

@@ -132,7 +132,7 @@ HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
     // Each tube has its own width, and is more or less filled.
     const VU drawn = hash(cell.id);
     const VF width = set(0.17F) + set(0.10F) * lower_part(drawn);
-    const VF open = set(0.78F) + set(0.22F) * lower_part(hash(drawn));
+    const VF open = set(0.86F) + set(0.14F) * lower_part(hash(drawn));
     Slot slot;
     slot.depth = unit((cell.border - width * set(0.6F)) * set(3.4F));
     slot.depth = slot.depth * slot.depth * (set(3.0F) - set(2.0F) * slot.depth) * open;
@@ -177,7 +177,7 @@ HWY_INLINE void add_slots(const HymeniumPlan& plan, const DiscPoint& p, VF share
                                  set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
     depth = depth * carried;
     // Before the margin they end, and leave a narrow smooth rim.
-    if (plan.pattern <= 2) depth = depth * (one - smooth(share, 0.93F, 16.0F));
+    if (plan.pattern <= 2) depth = depth * (one - smooth(share, 0.96F, 25.0F));
     VF deep = depth * depth;
     // Towards the rim gills and ridges are low, and light reaches the bottom between them.
     if (plan.pattern <= 2) deep = deep * (one - smooth(share, 0.72F, 4.0F) * set(0.75F));

@@ -164,6 +164,29 @@ TEST(Hymenium, EdgesStayInsideTheOutlineAndBasesUnderTheCap) {
         }
 }
 
+TEST(Hymenium, BladesEndAtUnlikeDistancesBeforeTheMargin) {
+    MushroomSpec order = textured(order_of("russula_vinosa"));
+    order.params.variation = 0.0;
+    order.params.deformation.bend_deg = 0.0;
+    order.params.deformation.lean_deg = 0.0;
+    order.params.deformation.imperfection = 0.0;
+    order.params.weathering.waves = 0.0;
+    const Individual individual = resolve(order, atlas());
+    const double rim = individual.outline.hymenium.at(1.0).r;
+    double nearest = 0.0, farthest = rim;
+    for (const Mesh& blade : solids(mushroom_mesh(order, individual))) {
+        double outer = 0.0;
+        for (const std::uint32_t i : blade.indices) {
+            const glm::dvec3 p(blade.positions[i]);
+            outer = std::max(outer, std::sqrt(p.x * p.x + p.z * p.z));
+        }
+        nearest = std::max(nearest, outer);
+        farthest = std::min(farthest, outer);
+    }
+    EXPECT_LT(nearest, 0.998 * rim);
+    EXPECT_LT(farthest, nearest - 0.005 * rim);
+}
+
 TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
     // Under every blade the image of the lower face shows the edge of a gill.
     MushroomSpec order = order_of("russula_vinosa", 0.6, 4);
@@ -271,6 +294,23 @@ TEST(Hymenium, SpinesAreClosedConesAsManyAsTheirRowsHold) {
         for (const Mesh& spine : spines) EXPECT_GT(volume(spine), 0.0);
         EXPECT_LE(mesh.triangles(), 60000u);
     }
+}
+
+TEST(Hymenium, SpinesHangAndDifferInLength) {
+    const Individual individual = individual_of(toothed(0.5));
+    std::vector<double> heights;
+    for (const Mesh& spine : solids(swept_mesh(individual, 0))) {
+        const Bounds box = bounds(spine);
+        glm::dvec3 lowest(spine.positions[0]), middle(0.0);
+        for (const glm::vec3& p : spine.positions) {
+            if (static_cast<double>(p.y) < lowest.y) lowest = glm::dvec3(p);
+            middle += glm::dvec3(p) / static_cast<double>(spine.positions.size());
+        }
+        heights.push_back(static_cast<double>(box.max.y - box.min.y));
+        EXPECT_LT(lowest.y, middle.y);
+    }
+    std::sort(heights.begin(), heights.end());
+    EXPECT_GT(heights[heights.size() * 9 / 10], 1.5 * heights[heights.size() / 10]);
 }
 
 TEST(Hymenium, CoarsePoresAreSolidsAndFineOnesArePainted) {

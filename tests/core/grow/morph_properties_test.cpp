@@ -54,13 +54,25 @@ MushroomSpec without_patches(MushroomSpec spec) {
     return spec;
 }
 
+/// Returns true when a set at LOD 0 has triangles for all rows of its gills and spines.
+bool has_all_rows(const MushroomSpec& spec) {
+    const Individual individual = resolved(spec);
+    const Budget budget = budget_of(individual, 0);
+    const BladeBudget blades = blade_budget(individual, budget.cells.pores > 0);
+    return budget.blades.segments == blades.segments && budget.blades.below == blades.below &&
+           budget.blades.vein_segments == blades.vein_segments &&
+           budget.cells.rings == cell_budget(individual).rings;
+}
+
 /// Leaves out of both orders the patches of a set at LOD 0 that has no triangles for all granules
-/// and hairs of its species. Returns false when such a set has spines, which no order leaves out.
+/// and hairs of its species, and all rows of its gills. Returns false when such a set has spines,
+/// which no order leaves out, or still has too many triangles for all rows.
 bool comparable(MushroomSpec& alone, MushroomSpec& beside) {
-    if (budget_of(resolved(beside), 0).ornaments.surplus >= 1.0) return true;
+    if (budget_of(resolved(beside), 0).ornaments.surplus >= 1.0 && has_all_rows(beside))
+        return true;
     alone = without_patches(alone);
     beside = without_patches(beside);
-    return !has_spines(beside);
+    return !has_spines(beside) && has_all_rows(beside);
 }
 
 /// Expects that a species mixed with a thousandth of another deviates by at most `allowance`,
