@@ -22,9 +22,9 @@ namespace {
 // the single-species mesh.
 constexpr int face_segments = 11, usual_segments = 6, least_segments = 3;
 constexpr int stem_segments = 3, usual_below = 2;
-constexpr int most_blade_triangles = 36000;
+constexpr int most_blade_triangles = 36000, most_smooth_triangles = 29000;
 constexpr std::size_t row_corners = 6;
-constexpr int vein_segments = 5, usual_vein_segments = 3, least_veins = 100, most_veins = 400;
+constexpr int vein_segments = 4, usual_vein_segments = 3, least_veins = 100, most_veins = 400;
 
 // Decurrence from which on blades stand on the stem's surface, as a share of its length: all
 // decurrent species of the atlas have more.
@@ -749,11 +749,11 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     budget.segments = face_segments;
     budget.vein_segments = vein_segments;
     // Rows are dropped first, then the shortest blades.
-    const auto too_many = [&] {
-        return (gill_layout.blades << budget.tiers) * triangles_of(budget.segments + budget.below) >
-               max_triangles;
+    const auto triangles = [&] {
+        return (gill_layout.blades << budget.tiers) * triangles_of(budget.segments + budget.below);
     };
-    while (too_many() && drop_row(budget)) continue;
+    const auto too_many = [&] { return triangles() > max_triangles; };
+    while ((triangles() > most_smooth_triangles || too_many()) && drop_row(budget)) continue;
     while (budget.below > 1 && too_many()) --budget.below;
     while (budget.tiers > 0 && too_many()) --budget.tiers;
     return budget;

@@ -41,8 +41,8 @@ inline constexpr std::array<Part, part_count> all_parts = {
 ///           = margin
 /// stem      strip: u = share of the arc from the base, v = theta / 2 pi
 /// veil      strip: u = theta / 2 pi, v = 0 at the attachment, 1 at the edge or tip
-/// blade     strip, the face of a gill, ridge or spine: u = 0 at the stem, 1 at the margin; v = 0
-///           at the base, 1 at the edge
+/// blade     strip, the face of a gill, ridge or spine: u runs from the stem to the margin, for each
+///           gill in its own window; v = 0 at the base, 1 at the edge
 /// flesh     strip, flesh exposed by a tear: u along the tear; v = 0 under the cuticle, 1 at its
 ///           deepest
 /// ground    strip of three bands across, see `ground_bands`: u round a solid, v from its base to
