@@ -14,6 +14,21 @@ namespace {
 
 constexpr const Chart& chart = swept_charts[static_cast<std::size_t>(Part::blade)];
 
+/// Returns the thickness of a thin layer under a fan and lobes, relative to that at rest.
+double squeeze_across(const AzimuthMap& azimuth, const OutlineSample& sample,
+                      const AzimuthMap::Column& column) {
+    if (azimuth.identity()) return 1.0;
+    const auto [s, c] = column.from;
+    const auto in_half_plane = [&](double r, double y) { return glm::dvec3(r * c, y, r * s); };
+    SurfacePoint layer{in_half_plane(sample.r, sample.y),
+                       in_half_plane(sample.tangent_r, sample.tangent_y),
+                       in_half_plane(sample.tangent_y, -sample.tangent_r)};
+    azimuth.apply(layer, column);
+    const double along = std::sqrt(glm::dot(layer.meridian, layer.meridian));
+    const glm::dvec3 area = glm::cross(layer.meridian, layer.azimuth);
+    return along > 0.0 ? std::sqrt(glm::dot(area, area)) / along : 1.0;
+}
+
 }  // namespace
 
 double decurrence(const HymeniumOf<Plain>& hymenium) {
@@ -72,23 +87,24 @@ Attachment::FacePoint Attachment::nearest_vertex(double share, double angle) con
 }
 
 SurfacePoint Attachment::place(Part part, const OutlineSample& sample, double angle,
-                               const AxisStation& station, bool in_half_plane) const {
+                               const AxisStation& station, Thickness thickness) const {
     const RestSurface::Column column = context.rest_surface.column(angle);
     SurfacePoint point = context.rest_surface.at(part, sample, column);
-    if (in_half_plane) {
-        // The thickness direction ignores waves and the turning of a fan; otherwise adjacent gills
-        // would overlap there.
+    if (thickness != Thickness::along_face) {
         const auto [s, c] = column.azimuth.to;
         const glm::dvec3 round(-s, 0.0, c);
-        point.azimuth = glm::dot(point.azimuth, round) * round;
+        const double rise = thickness == Thickness::rising ? point.azimuth.y : 0.0;
+        point.azimuth = glm::dot(point.azimuth, round) * round + glm::dvec3(0.0, rise, 0.0);
     }
     // Where a fan squeezes or stretches the face, solids become thinner or thicker with it, but not
-    // deeper.
+    // deeper; where it squeezes the flesh beside a steep face, they become as shallow as that.
     const double along = std::sqrt(glm::dot(point.meridian, point.meridian));
+    const double across = squeeze_across(context.rest_surface.azimuth(), sample, column.azimuth);
     context.deformer.apply({&point, 1}, station);
     if (part == Part::hymenium) point.position += context.curl.moved(false, sample.share, angle);
     const glm::dvec3 outward = glm::cross(point.meridian, point.azimuth);
-    point.meridian = std::min(along, 1.0) * unit_or(outward, {0.0, -1.0, 0.0});
+    point.meridian =
+        std::min(along, 1.0) * std::min(across, 1.0) * unit_or(outward, {0.0, -1.0, 0.0});
     return point;
 }
 

@@ -25,6 +25,14 @@ namespace sporeprint {
 /// there.
 [[nodiscard]] double cell_depth(const HymeniumOf<Plain>& hymenium, double share);
 
+/// In which direction a solid is thick. Gills stay in their half-planes through the axis: along the
+/// waves of the face or the turning of a fan, neighbours would overlap.
+enum class Thickness {
+    along_face,  ///< the solid stands perpendicular to the face
+    level,       ///< round the axis
+    rising  ///< round the axis and up or down with the face, so that a base stays in thin flesh
+};
+
 /// Computes where solids attach to the flesh of one lower face, and appends their vertices.
 class Attachment {
   public:
@@ -38,10 +46,8 @@ class Attachment {
     /// Returns the world-space point of a sample of a sub-curve; its `meridian` is the outward
     /// normal of the surface.
     ///
-    /// in_half_plane  true: the solid stays in its half-plane through the axis, as gills do; false:
-    ///                it stands perpendicular to the face
     [[nodiscard]] SurfacePoint place(Part part, const OutlineSample& sample, double angle,
-                                     const AxisStation& station, bool in_half_plane) const;
+                                     const AxisStation& station, Thickness thickness) const;
 
     /// A place on the lower face.
     struct FacePoint {

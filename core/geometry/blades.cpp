@@ -25,6 +25,8 @@ constexpr int stem_segments = 3, usual_below = 2;
 constexpr int most_blade_triangles = 36000, most_smooth_triangles = 29000;
 constexpr std::size_t row_corners = 6;
 constexpr int vein_segments = 4, usual_vein_segments = 3, least_veins = 100, most_veins = 400;
+/// Half the width of the last veins, relative to their distance from the margin.
+constexpr double margin_vein = 0.2;
 
 // Decurrence from which on blades stand on the stem's surface, as a share of its length: all
 // decurrent species of the atlas have more.
@@ -330,7 +332,8 @@ class Builder {
   private:
     /// One cross-section of a blade: its base point, with the directions of depth and thickness.
     struct Row {
-        SurfacePoint root;  ///< meridian: direction of depth; azimuth: direction of thickness
+        SurfacePoint root;     ///< meridian: direction of depth; azimuth: direction of thickness
+        glm::dvec3 base{0.0};  ///< direction of thickness at the root
         double along = 0.0, share = 0.0, height = 0.0, half = 0.0, stray = 0.0;
     };
     /// The part of the edge of a decurrent blade that is a curve.
@@ -357,6 +360,9 @@ class Builder {
                    const BladeBudget& budget);
     void place_vein(const CrossVein& vein, double most, const BladeBudget& budget);
     void row(const Plan& plan, double embedding);
+    /// Returns the direction of the blade at a row, from its neighbours.
+    [[nodiscard]] glm::dvec3 along_at(std::size_t j) const;
+    void straighten();
     [[nodiscard]] std::vector<glm::dvec3> edge_offsets(const EdgeCurve& curve) const;
     void append_rows(double shoulder, double waist, const EdgeCurve& curve);
     void append(double shoulder, double waist, bool drawn, const EdgeCurve& curve);
@@ -387,7 +393,8 @@ void Builder::row(const Plan& plan, double embedding) {
         const OutlineSample inner = attachment_.at(0.0, embedding), stem_end = stem.at(1.0);
         root.r += plan.buried * (inner.r - stem_end.r);
         root.y += plan.buried * (inner.y - stem_end.y);
-        row.root = attachment_.place(Part::stem, root, plan.angle, station, true);
+        row.root = attachment_.place(Part::stem, root, plan.angle, station, Thickness::level);
+        row.base = row.root.azimuth;
     } else {
         const double whole = plan.along / std::max(face_.length(), 1e-12);
         // Where the margin is cut back, blades end with it.
@@ -397,9 +404,13 @@ void Builder::row(const Plan& plan, double embedding) {
         row.height =
             plan.height + deep * std::min(1.0, plan.height / (shallow * face_.length() + 1e-12));
         row.stray = plan.stray;
-        row.root =
-            attachment_.place(Part::hymenium, attachment_.at(share, embedding), plan.angle,
-                              context_.deformer.frozen_station(context_.deformer.top()), true);
+        const OutlineSample root = attachment_.at(share, embedding);
+        const AxisStation station = context_.deformer.frozen_station(context_.deformer.top());
+        const auto placed = [&](Thickness thickness) {
+            return attachment_.place(Part::hymenium, root, plan.angle, station, thickness);
+        };
+        row.root = placed(Thickness::level);
+        row.base = placed(Thickness::rising).azimuth;
     }
     rows_.push_back(row);
 }
@@ -433,17 +444,39 @@ std::vector<glm::dvec3> Builder::edge_offsets(const EdgeCurve& curve) const {
     return offsets;
 }
 
+glm::dvec3 Builder::along_at(std::size_t j) const {
+    return rows_[std::min(j + 1, rows_.size() - 1)].root.position -
+           rows_[j == 0 ? 0 : j - 1].root.position;
+}
+
+// Where a fan turns back to its substrate, some rows of a blade may have their thickness against that
+// of the others. They become thin, or the blade would intersect itself.
+void Builder::straighten() {
+    std::vector<double> agreement;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+        const SurfacePoint& root = rows_[j].root;
+        const glm::dvec3 side = glm::cross(root.meridian, along_at(j));
+        agreement.push_back(
+            glm::dot(unit_or(side, root.azimuth), unit_or(root.azimuth, glm::dvec3(0.0))));
+        sum += rows_[j].half * rows_[j].height * agreement.back();
+    }
+    constexpr double steepness = 4.0;
+    for (std::size_t j = 0; j < rows_.size(); ++j)
+        rows_[j].half *= std::clamp(steepness * (sum < 0.0 ? -1.0 : 1.0) * agreement[j], 0.0, 1.0);
+}
+
 // A row has six corners: root, shoulder and tip of one face; tip, shoulder and root of the other.
 // The first and the last row have no thickness, so that both faces meet there and the solid is
 // closed.
 void Builder::append_rows(double shoulder, double waist, const EdgeCurve& curve) {
+    straighten();
     const std::vector<glm::dvec3> offsets = edge_offsets(curve);
     for (std::size_t j = 0; j < rows_.size(); ++j) {
         const Row& row = rows_[j];
         const glm::dvec3 &root = row.root.position, &deep = row.root.meridian,
                          &thick = row.root.azimuth;
-        const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
-                                 rows_[j == 0 ? 0 : j - 1].root.position;
+        const glm::dvec3 along = along_at(j);
         const glm::dvec3 down = unit_or(deep, {0.0, -1.0, 0.0});
         const glm::dvec3 side = unit_or(glm::cross(along, down), unit_or(-thick, {1.0, 0.0, 0.0}));
         const double half = j == 0 || j + 1 == rows_.size() ? 0.0 : row.half;
@@ -453,12 +486,12 @@ void Builder::append_rows(double shoulder, double waist, const EdgeCurve& curve)
         const glm::dvec3 leaning = unit_or(side + shoulder_lean * down, side),
                          other = unit_or(-side + shoulder_lean * down, -side);
         const double u = row.share;
-        attachment_.add_vertex(root - half * thick, side, along, u, 0.0, -1.0F);
+        attachment_.add_vertex(root - half * row.base, side, along, u, 0.0, -1.0F);
         attachment_.add_vertex(middle - waist * half * thick, leaning, along, u, shoulder, -1.0F);
         attachment_.add_vertex(tip, down, along, u, 1.0, -1.0F);
         attachment_.add_vertex(tip, down, along, u, 1.0, 1.0F);
         attachment_.add_vertex(middle + waist * half * thick, other, along, u, shoulder, 1.0F);
-        attachment_.add_vertex(root + half * thick, -side, along, u, 0.0, 1.0F);
+        attachment_.add_vertex(root + half * row.base, -side, along, u, 0.0, 1.0F);
     }
 }
 
@@ -686,7 +719,9 @@ void Builder::plan_vein(const SpeciesShare& part, const CrossVein& vein, const B
         plan.angle = 2.0 * pi * row_of.turn({.from = gaps, .to = gaps}, share);
         plan.height = full * (1.0 - vein_sag * middle) * attached_depth(hymenium, share) *
                       depth_envelope(hymenium, share) * face_.at(share).scale;
-        plan.half = half * (1.0 - vein_narrowing * middle);
+        // The last veins become narrow, or they would leave the thin flesh at the margin.
+        plan.half = std::min(half * (1.0 - vein_narrowing * middle),
+                             margin_vein * std::max(1.0 - share, 0.0) * length);
         plans_.push_back(plan);
     }
 }
@@ -706,12 +741,11 @@ void Builder::place_vein(const CrossVein& vein, double most, const BladeBudget& 
         row(plan, left(vanishing_embedding));
     }
     for (std::size_t j = 0; j < rows_.size(); ++j) {
-        const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
-                                 rows_[j == 0 ? 0 : j - 1].root.position;
+        const glm::dvec3 along = along_at(j);
         // A vein is thick along the meridian; its texture runs along its length.
         rows_[j].share = vein.share + vein_texture_length *
                                           (static_cast<double>(j) / budget.vein_segments - 0.5);
-        rows_[j].root.azimuth =
+        rows_[j].base = rows_[j].root.azimuth =
             unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
     }
 }

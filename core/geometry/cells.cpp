@@ -58,7 +58,8 @@ SurfacePoint cell_root(const Attachment& attachment, const CellPlace& cell, doub
     const double angle = rest.angle + embedding * (own - rest.angle);
     const double share =
         attachment.context.cuts.lower(rest.share + embedding * (cell.share - rest.share), angle);
-    return attachment.place(Part::hymenium, attachment.at(share, embedding), angle, station, false);
+    return attachment.place(Part::hymenium, attachment.at(share, embedding), angle, station,
+                            Thickness::along_face);
 }
 
 // A cell in space: the frame at its base, and its dimensions, metres.

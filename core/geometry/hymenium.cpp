@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/geometry/budget.h"
 #include "core/math/elementary.h"
@@ -32,6 +34,21 @@ double distance_to(const std::vector<OutlineSample>& line, double r, double y, d
         if (s >= 0.0 && s <= 1.0 && t > from) nearest = std::min(nearest, t);
     }
     return nearest;
+}
+
+/// Returns the distance of a point from a polyline in the half-plane.
+double nearest_to(const std::vector<OutlineSample>& line, double r, double y) {
+    const glm::dvec2 point(r, y);
+    double nearest = 1e18;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const glm::dvec2 from(line[i].r, line[i].y), to(line[i + 1].r, line[i + 1].y);
+        const double length = glm::dot(to - from, to - from);
+        const double t =
+            length > 0.0 ? std::clamp(glm::dot(point - from, to - from) / length, 0.0, 1.0) : 0.0;
+        const glm::dvec2 off = point - from - t * (to - from);
+        nearest = std::min(nearest, glm::dot(off, off));
+    }
+    return std::sqrt(nearest);
 }
 
 }  // namespace
@@ -72,6 +89,8 @@ LowerFace::LowerFace(const Individual& individual, DetailLevel level, bool solid
         double available = distance_to(cap, at.r, at.y, -place.normal_r, -place.normal_y, 1e-9);
         if (place.normal_r > 1e-9) available = std::min(available, at.r / place.normal_r);
         if (available > 1e8) available = 0.0;
+        // At a blunt margin the cap ends before the opposite point of its skin.
+        available = std::min(available, nearest_to(cap, at.r, at.y));
         double wanted = 0.0, groove = 0.0;
         for (const SpeciesShare& part : individual.parts) {
             const HymeniumOf<Plain>& hymenium = part.model.hymenium;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "core/individual/proportion.h"
@@ -26,7 +27,17 @@ RestSurface::RestSurface(const Individual& individual, const Detail& detail, con
       relief_(individual, carrier),
       waves_(individual.waves, greatest_radius(individual.outline.cap), detail.columns,
              individual.effective.seed, species_of(individual)),
-      azimuth_(individual, detail.columns) {}
+      azimuth_(individual, detail.columns) {
+    if (outline_.cap.empty() || outline_.hymenium.empty()) return;
+    const auto at = [](const SubCurve& curve, double share) {
+        const OutlineSample sample = curve.at(share);
+        return glm::dvec2(sample.r, sample.y);
+    };
+    margin_ = at(outline_.cap, 0.0);
+    waved_ = std::max(std::min(glm::distance(margin_, at(outline_.cap, 1.0)),
+                               glm::distance(margin_, at(outline_.hymenium, 0.0))),
+                      1e-9);
+}
 
 RestSurface::Column RestSurface::column(double angle) const {
     Column column{angle, azimuth_.column(angle), {}};
@@ -64,11 +75,14 @@ SurfacePoint RestSurface::at(Part part, const OutlineSample& sample, const Colum
         }
     }
     if (part != Part::stem && !waves_.flat()) {
-        const bool cap = part == Part::cap;
-        const double length = curve(part).length();
-        const auto wave = waves_.at(cap ? 1.0 - sample.share : sample.share, column.waves);
+        const glm::dvec2 away = glm::dvec2(sample.r, sample.y) - margin_;
+        const double distance = std::sqrt(glm::dot(away, away));
+        const auto wave = waves_.at(std::max(1.0 - distance / waved_, 0.0), column.waves);
         point.position.y += wave.height;
-        if (length > 0.0) point.meridian.y += (cap ? -wave.by_share : wave.by_share) / length;
+        if (distance > 0.0)
+            point.meridian.y -= wave.by_share / waved_ *
+                                glm::dot(away, glm::dvec2(sample.tangent_r, sample.tangent_y)) /
+                                distance;
         if (sample.r > 0.0) point.azimuth.y += wave.by_angle / sample.r;
     }
     azimuth_.apply(point, column.azimuth);

@@ -2,6 +2,8 @@
 // axis displace them.
 #pragma once
 
+#include <glm/vec2.hpp>
+
 #include "core/geometry/azimuth.h"
 #include "core/geometry/relief.h"
 #include "core/geometry/waves.h"
@@ -54,6 +56,11 @@ class RestSurface {
     const Outline& outline_;
     Relief relief_;
     Waves waves_;
+    /// Both faces wave by their distance from the margin in the half-plane, so that opposite points
+    /// move alike: measured along each face, they would not where the margin is blunt, and thin
+    /// flesh would come through the cap.
+    glm::dvec2 margin_{0.0};
+    double waved_ = 1.0;  ///< the distance at which all waves have ended, metres
     AzimuthMap azimuth_;
 };
 

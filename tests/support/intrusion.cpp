@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
-#include "tests/support/surfaces.h"
+#include "tests/support/triangle_grid.h"
 
 namespace sporeprint {
 
@@ -37,21 +37,18 @@ Solid::Solid(const Mesh& mesh) : mesh_(mesh), box_(bounds(mesh)), columns_(cells
     }
 }
 
-double Solid::depth(const glm::dvec3& point) const {
+bool Solid::contains(const glm::dvec3& point) const {
     const glm::dvec3 low(box_.min), high(box_.max);
     if (point.x < low.x || point.y < low.y || point.z < low.z || point.x > high.x ||
         point.y > high.y || point.z > high.z)
-        return 0.0;
+        return false;
     const auto column = static_cast<std::size_t>(cell_of(point.z, low.z, cell_z_) * cells +
                                                  cell_of(point.x, low.x, cell_x_));
     // Counts crossings of an upward ray, signed by the side of the triangle.
     int winding = 0;
-    const auto corner = [&](std::uint32_t t, std::size_t k) {
-        return glm::dvec3(mesh_.positions[mesh_.indices[3 * t + k]]);
-    };
     for (const std::uint32_t t : columns_[column]) {
-        const glm::dvec3 a = corner(t, 0) - point, b = corner(t, 1) - point,
-                         c = corner(t, 2) - point;
+        auto [a, b, c] = corners_of(mesh_, t);
+        for (glm::dvec3* corner : {&a, &b, &c}) *corner -= point;
         const double u = b.x * c.z - b.z * c.x, v = c.x * a.z - c.z * a.x,
                      w = a.x * b.z - a.z * b.x;
         const double area = u + v + w;
@@ -59,11 +56,16 @@ double Solid::depth(const glm::dvec3& point) const {
         if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) continue;
         if ((u * a.y + v * b.y + w * c.y) / area > 0.0) winding += area < 0.0 ? 1 : -1;
     }
-    if (winding <= 0) return 0.0;
+    return winding > 0;
+}
+
+double Solid::depth(const glm::dvec3& point) const {
+    if (!contains(point)) return 0.0;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t t = 0; t < mesh_.triangles(); ++t)
-        nearest = std::min(nearest,
-                           distance_to_triangle(point, corner(t, 0), corner(t, 1), corner(t, 2)));
+    for (std::uint32_t t = 0; t < mesh_.triangles(); ++t) {
+        const auto [a, b, c] = corners_of(mesh_, t);
+        nearest = std::min(nearest, distance_to_triangle(point, a, b, c));
+    }
     return nearest;
 }
 

@@ -13,8 +13,10 @@ class Solid {
     /// pre  mesh outlives this object
     explicit Solid(const Mesh& mesh);
 
-    /// Returns the depth of a point inside, metres: its distance to the surface; 0 outside. Inside
-    /// is determined by the winding number.
+    /// Returns true for a point inside, by the winding number.
+    [[nodiscard]] bool contains(const glm::dvec3& point) const;
+
+    /// Returns the depth of a point inside, metres: its distance to the surface; 0 outside.
     [[nodiscard]] double depth(const glm::dvec3& point) const;
 
     [[nodiscard]] const Bounds& box() const { return box_; }

@@ -5,13 +5,6 @@
 
 namespace sporeprint {
 
-/// Returns the distance from a point to a triangle, metres; degenerate triangles count as segments
-/// or points.
-///
-/// source [Ericson2005] sec. 5.1.5: the closest point by Voronoi regions
-[[nodiscard]] double distance_to_triangle(const glm::dvec3& point, const glm::dvec3& a,
-                                          const glm::dvec3& b, const glm::dvec3& c);
-
 /// Returns the Hausdorff distance of two surfaces, metres: the greatest distance of the vertices,
 /// edge midpoints and triangle centres of either from the triangles of the other; exact for these
 /// samples.

@@ -1,5 +1,6 @@
 // Tests of the distance measures that the continuity tests use.
 #include "tests/support/surfaces.h"
+#include "tests/support/triangle_grid.h"
 
 #include <gtest/gtest.h>
 
