@@ -154,7 +154,7 @@ WoodPiece wood_of(const ColonyParams& params, const ColonyTraits& traits, const 
                   double lowest, double highest) {
     const double radius = trunk_radius(params, fit);
     const double beyond = std::max(1.2 * std::max(fit.height, fit.cap_radius), 0.5 * radius);
-    return {radius, lowest - beyond, highest + beyond, traits.seed};
+    return {radius, lowest - beyond, highest + beyond, traits.seed, 0.0, traits.substrate};
 }
 
 /// Returns about how many vertices and triangles the wood of a colony has.

@@ -35,7 +35,8 @@ std::optional<WoodPiece> wood_behind(const Individual& individual) {
                      .bottom = low - beyond,
                      .top = high + beyond,
                      .seed = Random(individual.effective.seed, purposes::wood, names).bits(),
-                     .split = split_behind * individual.trunk_radius};
+                     .split = split_behind * individual.trunk_radius,
+                     .kind = *individual.effective.substrate};
 }
 
 int wood_lod(DetailLevel level) { return std::min(level.nearest(), last_lod); }

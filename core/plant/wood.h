@@ -1,10 +1,11 @@
-// A piece of a trunk or branch with sawn ends, on which brackets grow.
+// A piece of a trunk or branch with broken ends, on which brackets grow.
 #pragma once
 
 #include <cstdint>
 
 #include "core/mesh/detail.h"
 #include "core/mesh/mesh.h"
+#include "core/model/substrate.h"
 
 namespace sporeprint {
 
@@ -16,22 +17,27 @@ struct WoodPiece {
     /// How far behind the origin it is split along the grain, metres, less than the radius; 0: it is
     /// whole.
     double split = 0.0;
+    Substrate kind = Substrate::beech;  ///< whose bark it has
 };
 
 /// The greatest distance of the bark from the axis, in radii.
-inline constexpr double uneven_radius = 1.1;
+inline constexpr double uneven_radius = 1.12;
+
+/// The most by which an end lies below its highest point, in radii or, of a short piece, lengths.
+inline constexpr double deepest_end = 0.25;
 
 /// Returns the number of vertices and triangles of wood_mesh().
 [[nodiscard]] MeshCount wood_count(const WoodPiece& piece, int lod);
 
-/// Returns the surface: bark, whose radius varies between 1 and uneven_radius of the radius
-/// of the piece, two flat ends and, of a split piece, a face with the lines of its growth rings.
+/// Returns the surface: bark with its ridges and furrows, whose radius varies between 1 and
+/// uneven_radius of the radius of the piece, two broken ends with bark that has come off and, of a
+/// split piece, a face with the lines of its growth rings.
 ///
-/// lod       0..3: 48, 28, 16 or 12 sides; of a split piece half as many on its bark
+/// lod       0..3; bark has its relief in the first two
 /// textured  makes texture coordinates for wood_images(), and tangents
 /// returns   a mesh that is closed once equal positions are welded
 /// throws    InvalidInput for a radius that is not positive, a top that is not above the bottom,
-///           or a split that is not between 0 and the radius
+///           a split that is not between 0 and the radius, or no kind of wood
 [[nodiscard]] Mesh wood_mesh(const WoodPiece& piece, int lod, bool textured);
 
 }  // namespace sporeprint

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
-#include "core/plant/bark_image.h"
+#include "core/plant/bark_relief.h"
 #include "core/plant/image_rows.h"
 #include "core/problems.h"
 
@@ -16,14 +17,18 @@ namespace sporeprint {
 
 namespace {
 
-static_assert(2.0 * wood_girths == wood_bark_end * bark_girths,
-              "the bark is that of bark_images(), on half of the girth");
-
 /// The look of a kind of wood.
 struct WoodStyle {
-    BarkStyle bark;
+    Colour ridge, furrow;  ///< of what stands out and of what lies deep
+    Colour tint;           ///< of patches of the bark
+    Colour lenticel{48, 42, 40};
+    double lenticels = 0.0;        ///< how many level dashes there are
+    double lenticel_length = 5.0;  ///< in their heights
+    double paper = 0.0;            ///< how much of the bark comes off in level sheets
+    double wrinkles = 0.0;         ///< strength of level wrinkles
+    double lichen = 0.5, algae = 0.5, moss = 0.3;
     Colour sapwood, heartwood;
-    int rings = 20;  ///< annual rings of a sawn end
+    int rings = 20;  ///< annual rings of an end
 };
 
 WoodStyle style_of(Substrate substrate) {
@@ -31,54 +36,67 @@ WoodStyle style_of(Substrate substrate) {
         case Substrate::none:
             break;
         case Substrate::beech:
-            return {{.ridge = {136, 134, 124},
-                     .furrow = {92, 92, 84},
-                     .furrows = 0.12,
-                     .ridges = 8,
-                     .stretch = 1.5,
-                     .lenticels = 0.1,
-                     .lenticel = {104, 102, 92}},
-                    {196, 164, 124},
-                    {176, 134, 98},
-                    26};
+            return {.ridge = {150, 147, 138},
+                    .furrow = {88, 88, 80},
+                    .tint = {118, 120, 108},
+                    .lenticel = {84, 78, 68},
+                    .lenticels = 0.35,
+                    .lenticel_length = 3.0,
+                    .wrinkles = 0.8,
+                    .lichen = 0.8,
+                    .algae = 0.6,
+                    .moss = 0.35,
+                    .sapwood = {178, 152, 118},
+                    .heartwood = {146, 114, 84},
+                    .rings = 26};
         case Substrate::birch:
-            return {{.ridge = {222, 218, 208},
-                     .furrow = {90, 84, 80},
-                     .furrows = 0.15,
-                     .ridges = 6,
-                     .stretch = 1.5,
-                     .lenticels = 0.5,
-                     .lenticel = {48, 42, 40}},
-                    {206, 180, 142},
-                    {190, 158, 118},
-                    22};
+            return {.ridge = {226, 222, 212},
+                    .furrow = {150, 140, 128},
+                    .tint = {206, 184, 162},
+                    .lenticel = {58, 48, 44},
+                    .lenticels = 1.0,
+                    .lenticel_length = 9.0,
+                    .paper = 1.0,
+                    .wrinkles = 0.35,
+                    .lichen = 0.25,
+                    .algae = 0.4,
+                    .moss = 0.15,
+                    .sapwood = {190, 168, 132},
+                    .heartwood = {160, 132, 98},
+                    .rings = 22};
         case Substrate::oak:
-            return {{.ridge = {112, 98, 82},
-                     .furrow = {44, 37, 31},
-                     .furrows = 0.9,
-                     .ridges = 14,
-                     .stretch = 5.0},
-                    {190, 162, 120},
-                    {134, 96, 62},
-                    30};
+            return {.ridge = {124, 112, 97},
+                    .furrow = {42, 35, 29},
+                    .tint = {98, 92, 78},
+                    .lichen = 0.6,
+                    .algae = 0.6,
+                    .moss = 0.7,
+                    .sapwood = {170, 146, 112},
+                    .heartwood = {112, 82, 56},
+                    .rings = 30};
         case Substrate::poplar:
-            return {{.ridge = {122, 116, 100},
-                     .furrow = {58, 52, 44},
-                     .furrows = 0.7,
-                     .ridges = 10,
-                     .stretch = 6.0},
-                    {206, 188, 156},
-                    {172, 146, 112},
-                    14};
+            return {.ridge = {136, 130, 114},
+                    .furrow = {56, 50, 43},
+                    .tint = {112, 110, 92},
+                    .lenticel = {70, 62, 52},
+                    .lenticels = 0.25,
+                    .lenticel_length = 2.0,
+                    .lichen = 0.7,
+                    .algae = 0.5,
+                    .moss = 0.5,
+                    .sapwood = {186, 170, 140},
+                    .heartwood = {152, 128, 100},
+                    .rings = 14};
         case Substrate::spruce:
-            return {{.ridge = {112, 84, 66},
-                     .furrow = {62, 46, 36},
-                     .furrows = 0.6,
-                     .ridges = 18,
-                     .stretch = 1.4},
-                    {208, 182, 136},
-                    {196, 158, 108},
-                    34};
+            return {.ridge = {126, 100, 82},
+                    .furrow = {58, 43, 34},
+                    .tint = {104, 92, 82},
+                    .lichen = 0.7,
+                    .algae = 0.35,
+                    .moss = 0.3,
+                    .sapwood = {186, 162, 122},
+                    .heartwood = {168, 134, 94},
+                    .rings = 34};
     }
     throw InvalidInput("/substrate", "no wood has no images");
 }
@@ -112,69 +130,176 @@ class RowNoise {
     std::size_t count_;  ///< texels of a row
 };
 
-glm::dvec3 colour_at(const RawImages& images, std::size_t texel) {
-    const std::uint8_t* const from = &images.rgb[0][3 * texel];
-    return glm::dvec3(from[0], from[1], from[2]) / 255.0;
-}
-
 void set_colour(RawImages& images, std::size_t texel, const glm::dvec3& colour) {
     for (std::size_t k = 0; k < 3; ++k)
         images.rgb[0][3 * texel + k] = share_as_byte(colour[static_cast<int>(k)]);
 }
 
-/// Gives bark its fine grain, and the algae and crusts of lichen that grow on it.
-class BarkWeather {
+/// Paints bark, and the algae, lichens and moss that grow on it: first colour, roughness and
+/// occlusion with heights, then the normals that follow from the heights.
+class BarkPainter {
   public:
-    BarkWeather(std::uint32_t seed, RawImages& images)
-        : count_(static_cast<std::size_t>(images.side)), noise_(seed, count_), images_(images) {}
+    BarkPainter(Substrate kind, const WoodStyle& style, RawImages& images)
+        : kind_(kind),
+          style_(style),
+          count_(static_cast<std::size_t>(images.side)),
+          images_(images),
+          depth_(bark_depth(kind)),
+          heights_(count_ * count_, 0.0F),
+          ridge_(encoded(style.ridge)),
+          furrow_(encoded(style.furrow)),
+          tint_(encoded(style.tint)),
+          dash_(encoded(style.lenticel)) {
+        for (std::size_t x = 0; x < count_; ++x)
+            across_.push_back((static_cast<float>(x) + 0.5F) / static_cast<float>(count_));
+    }
 
     void paint_row(std::size_t y);
 
-  private:
-    /// Returns the fine relief of a row: scales a little longer than wide, and grain.
-    [[nodiscard]] std::vector<float> relief(double down) const {
-        std::vector<float> sum = noise_.row(48, 24.0 * down, 8U);
-        const std::vector<float> grain = noise_.row(160, 110.0 * down, 9U);
-        for (std::size_t x = 0; x < count_; ++x) sum[x] = 0.6F * sum[x] + 0.4F * grain[x];
-        return sum;
-    }
+    /// rows  of bark
+    void resolve_normals(std::size_t y, std::size_t rows);
 
-    static constexpr double steepness = 0.35;  ///< slope of the fine relief per unit of its noise
-    std::size_t count_;
-    RowNoise noise_;
+  private:
+    Substrate kind_;
+    const WoodStyle& style_;
+    std::size_t count_;  ///< texels of a row
     RawImages& images_;
+    double depth_;
+    std::vector<float> heights_, across_;  ///< in widths of the image
+    glm::dvec3 ridge_, furrow_, tint_, dash_;
 };
 
-void BarkWeather::paint_row(std::size_t y) {
-    const double texel = 1.0 / static_cast<double>(count_);
-    const double down = (static_cast<double>(y) + 0.5) * texel;
-    const std::vector<float> here = relief(down), below = relief(down + texel);
-    const std::vector<float> patches = noise_.row(7, 7.0 * down, 10U);
-    const std::vector<float> edges = noise_.row(60, 60.0 * down, 11U);
-    const std::vector<float> films = noise_.row(3, 2.0 * down, 12U);
-    const glm::dvec3 lichen(0.69, 0.71, 0.65), algae(0.44, 0.49, 0.29);
+/// Returns how far inside a patch a place is, -1 to 1, by the value of a noise and the share of
+/// places that are in patches.
+double inside(float noise, double share) { return static_cast<double>(noise) + share - 0.62; }
+
+void BarkPainter::paint_row(std::size_t y) {
+    const std::vector<float> along(count_,
+                                   (static_cast<float>(y) + 0.5F) / static_cast<float>(count_));
+    const BarkNoise noise(kind_, across_, along);
+    const std::vector<float> rise = bark_rise(kind_, noise);
+    const auto patches = noise.at(6, 1.0, 4U, 1.0), ragged = noise.at(31, 1.0, 5U, 1.5),
+               grain = noise.at(90, 1.6, 6U), fine = noise.at(240, 1.2, 7U, 0.0),
+               streaks = noise.at(9, 3.0, 8U), wrinkles = noise.at(11, 0.22, 9U, 1.2),
+               dashes = noise.at(60 / static_cast<int>(style_.lenticel_length),
+                                 1.0 / style_.lenticel_length, 10U, 1.4),
+               marks = noise.at(150 / static_cast<int>(style_.lenticel_length),
+                                1.0 / style_.lenticel_length, 11U, 1.4),
+               sheets = noise.at(4, 0.17, 12U, 1.6), stripes = noise.at(13, 0.05, 13U, 1.0),
+               crusts = noise.at(9, 1.0, 14U, 0.9), rosettes = noise.at(17, 1.0, 15U, 0.9),
+               cells = noise.at(120, 1.0, 16U, 2.0), tufts = noise.at(150, 0.8, 17U, 2.0);
+    // Lichens grow as nearly round crusts; a second noise tells one from another.
     for (std::size_t x = 0; x < count_; ++x) {
+        const auto of = [x](const std::vector<float>& values) {
+            return static_cast<double>(values[x]);
+        };
+        const double high = of(rise), g = of(grain), f = of(fine);
+        glm::dvec3 colour = furrow_ + smooth_step(0.0, 0.85, high) * (ridge_ - furrow_);
+        colour += smooth_step(-0.15, 0.45, of(patches) + 0.3 * of(ragged)) * 0.55 * high *
+                  (tint_ - colour);
+        double height = depth_ * high, occlusion = 1.0 - 0.6 * (1.0 - high) * (1.0 - high);
+        double roughness = 0.86 + 0.08 * f;
+        // Fine scales and grain, more of them where bark is furrowed.
+        const double coarse = style_.paper > 0.0 ? 0.3 : 1.0;
+        colour *= 1.0 + coarse * (0.13 * g + 0.1 * f) + 0.1 * of(ragged);
+        height += coarse * (0.0016 * g + 0.0006 * f);
+        if (style_.wrinkles > 0.0) {
+            const double line = std::abs(of(wrinkles) + 0.1 * g);
+            const double crease = style_.wrinkles * (1.0 - smooth_step(0.0, 0.07, line)) *
+                                  smooth_step(-0.2, 0.3, of(patches) + of(streaks));
+            colour *= 1.0 - 0.3 * crease;
+            height -= 0.0011 * crease;
+            occlusion -= 0.25 * crease;
+        }
+        if (style_.paper > 0.0) {
+            // Sheets of paper end in a torn edge, which stands off; below it is younger bark.
+            const double sheet = of(sheets) + 0.12 * of(ragged) + 0.04 * g;
+            const double under = smooth_step(0.3, 0.325, sheet);
+            const double edge = (1.0 - smooth_step(0.0, 0.03, std::abs(sheet - 0.3))) *
+                                smooth_step(-0.1, 0.2, of(patches) + of(streaks));
+            colour *= 1.0 + 0.07 * of(stripes);
+            colour += 0.5 * under * (glm::dvec3(0.83, 0.68, 0.55) - colour);
+            colour *= 1.0 - 0.42 * edge * under;
+            height += style_.paper * (0.0007 * (1.0 - under) + 0.0003 * of(stripes));
+            occlusion -= 0.4 * edge * under;
+        }
+        if (style_.lenticels > 0.0) {
+            const double large = smooth_step(
+                0.66, 0.76, of(dashes) + 0.22 * style_.lenticels + 0.05 * g + 0.12 * of(ragged));
+            const double small =
+                smooth_step(0.62, 0.7, of(marks) + 0.16 * style_.lenticels + 0.05 * f);
+            const double lenticel = std::max(large, 0.8 * small);
+            colour += lenticel * ((1.0 + 0.35 * f) * dash_ - colour);
+            height += 0.0009 * (lenticel * (1.0 - lenticel) * 4.0) - 0.0007 * lenticel;
+            occlusion -= 0.3 * lenticel;
+        }
+        // Algae as a film of dust, most in the lee of rain.
+        const double film =
+            style_.algae * smooth_step(-0.1, 0.7, of(streaks) + 0.5 * of(patches) + 0.25 * g);
+        colour +=
+            0.4 * film * ((0.8 + 0.4 * high + 0.3 * f) * glm::dvec3(0.4, 0.44, 0.27) - colour);
+        // Crusts of lichen have a sharp rim, a pale thallus that is cracked into areoles, and dark
+        // fruits.
+        const double crust_at = inside(crusts[x], 0.32 * style_.lichen) + 0.13 * of(ragged) +
+                                0.07 * g + 0.03 * f + 0.25 * of(patches);
+        const double crust = smooth_step(0.0, 0.018, crust_at);
+        if (crust > 0.0) {
+            const double rim = 1.0 - smooth_step(0.01, 0.05, crust_at);
+            const double crack = 1.0 - smooth_step(0.0, 0.09, std::abs(of(cells)));
+            const double fruit = smooth_step(0.5, 0.56, of(tufts)) * (1.0 - rim);
+            glm::dvec3 thallus = glm::dvec3(0.64, 0.67, 0.6) + 0.12 * rim;
+            thallus *= 1.0 + 0.1 * g + 0.06 * f - 0.22 * crack * (1.0 - rim);
+            thallus += fruit * (glm::dvec3(0.2, 0.19, 0.17) - thallus);
+            colour += 0.92 * crust * (thallus - colour);
+            height += crust * (0.0007 - 0.0006 * crack + 0.0006 * fruit);
+            roughness += crust * (0.95 - roughness);
+        }
+        const double rosette_at =
+            inside(rosettes[x], 0.14 * style_.lichen) + 0.3 * of(ragged) + 0.14 * g + 0.06 * f;
+        const double rosette = smooth_step(0.0, 0.05, rosette_at) * (1.0 - crust);
+        if (rosette > 0.0) {
+            const double lobes = smooth_step(-0.15, 0.2, of(cells) + 0.3 * f);
+            const glm::dvec3 leaf = (0.72 + 0.3 * lobes) * glm::dvec3(0.62, 0.66, 0.52);
+            colour += 0.9 * rosette * (leaf - colour);
+            height += rosette * (0.0005 + 0.0009 * lobes);
+            occlusion -= 0.25 * rosette * (1.0 - lobes);
+        }
+        // Moss begins in furrows and where rain runs down.
+        const double moss_at = inside(patches[x], 0.34 * style_.moss) + 0.22 * of(streaks) +
+                               0.3 * of(ragged) + 0.2 * g + 0.1 * f + 0.14 * (0.7 - high);
+        const double moss = smooth_step(0.0, 0.16, moss_at);
+        if (moss > 0.0) {
+            const double tuft = smooth_step(-0.4, 0.45, of(tufts) + 0.5 * f);
+            const glm::dvec3 green =
+                glm::dvec3(0.19, 0.22, 0.09) +
+                tuft * (glm::dvec3(0.38, 0.42, 0.18) - glm::dvec3(0.19, 0.22, 0.09));
+            colour += moss * ((1.0 + 0.3 * of(ragged)) * green - colour);
+            height += moss * (0.0015 + 0.0016 * tuft + 0.0006 * f);
+            occlusion -= 0.35 * moss * (1.0 - tuft);
+            roughness += moss * (1.0 - roughness);
+        }
         const std::size_t at = y * count_ + x;
-        const auto rise = static_cast<double>(here[x]);
-        glm::dvec3 colour = colour_at(images_, at) * (1.0 + 0.14 * rise);
-        const double film = smooth_step(0.0, 0.6, static_cast<double>(films[x]) + 0.2 * rise);
-        colour += 0.4 * film * (algae - colour);
-        const double crust = smooth_step(
-            0.34, 0.42, static_cast<double>(patches[x]) + 0.22 * static_cast<double>(edges[x]));
-        colour += 0.75 * crust * ((1.0 + 0.16 * rise) * lichen - colour);
         set_colour(images_, at, colour);
-        const auto ahead = static_cast<double>(here[(x + 1) % count_]);
-        const double slopes[2] = {steepness * (rise - ahead),
-                                  steepness * (static_cast<double>(below[x]) - rise)};
-        glm::dvec3 normal(0.0);
-        for (int k = 0; k < 3; ++k)
-            normal[k] = images_.rgb[1][3 * at + static_cast<std::size_t>(k)] / 127.5 - 1.0;
-        normal = glm::normalize(normal + glm::dvec3(slopes[0], slopes[1], 0.0));
+        heights_[at] = static_cast<float>(height);
+        images_.rgb[2][3 * at] = share_as_byte(occlusion);
+        images_.rgb[2][3 * at + 1] = share_as_byte(roughness);
+    }
+}
+
+void BarkPainter::resolve_normals(std::size_t y, std::size_t rows) {
+    const std::size_t above = y == 0 ? y : y - 1, below = std::min(y + 1, rows - 1);
+    const double steep = 0.5 * static_cast<double>(count_);
+    for (std::size_t x = 0; x < count_; ++x) {
+        const std::size_t left = (x + count_ - 1) % count_, right = (x + 1) % count_;
+        const auto height = [&](std::size_t i, std::size_t k) {
+            return static_cast<double>(heights_[k * count_ + i]);
+        };
+        const glm::dvec3 normal =
+            glm::normalize(glm::dvec3(steep * (height(left, y) - height(right, y)),
+                                      steep * (height(x, below) - height(x, above)), 1.0));
         for (std::size_t k = 0; k < 3; ++k)
-            images_.rgb[1][3 * at + k] = share_as_byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
-        const double roughness = images_.rgb[2][3 * at + 1] / 255.0;
-        images_.rgb[2][3 * at + 1] =
-            share_as_byte(roughness + crust * (0.95 - roughness) + 0.06 * rise);
+            images_.rgb[1][3 * (y * count_ + x) + k] =
+                share_as_byte(0.5 + 0.5 * normal[static_cast<int>(k)]);
     }
 }
 
@@ -184,9 +309,10 @@ class EndPainter {
     EndPainter(const WoodStyle& style, std::uint32_t seed, RawImages& images)
         : rings_(style.rings),
           count_(static_cast<std::size_t>(images.side)),
+          seed_(seed),
           noise_(seed, count_),
           images_(images),
-          bark_(0.5 * (encoded(style.bark.ridge) + encoded(style.bark.furrow))),
+          bark_(0.5 * (encoded(style.ridge) + encoded(style.furrow))),
           sapwood_(encoded(style.sapwood)),
           heartwood_(encoded(style.heartwood)) {}
 
@@ -198,8 +324,23 @@ class EndPainter {
     void paint_row(std::size_t y);
 
   private:
+    /// Returns noise at the points of a row, so many features in a radius of the wood.
+    [[nodiscard]] std::vector<float> plane(double radius, double features,
+                                           std::uint32_t purpose) const {
+        std::vector<float> u(count_), v(count_), out(count_);
+        for (std::size_t x = 0; x < count_; ++x) {
+            const SineCosine to = sine_cosine(2.0 * pi * (static_cast<double>(x) + 0.5) /
+                                              static_cast<double>(count_));
+            u[x] = static_cast<float>(features * radius * to.sine);
+            v[x] = static_cast<float>(features * radius * to.cosine);
+        }
+        gradient_noise(u, v, seed_ * 16U + purpose, out);
+        return out;
+    }
+
     double rings_;
     std::size_t count_;  ///< texels of a row
+    std::uint32_t seed_;
     RowNoise noise_;
     RawImages& images_;
     glm::dvec3 bark_, sapwood_, heartwood_;
@@ -210,42 +351,54 @@ void EndPainter::paint_row(std::size_t y) {
     const double radius =
         std::clamp((wood_end_middle - v) / (wood_end_middle - wood_end_rim), 0.0, 1.0);
     const std::vector<float> wobble = noise_.row(3, 2.0 * radius, 0U);
-    const std::vector<float> stains = noise_.row(5, 4.0 * radius, 1U);
-    const std::vector<float> fine = noise_.row(96, 60.0 * radius, 2U);
     const std::vector<float> rays = noise_.row(160, 5.0 * radius, 3U);
     const std::vector<float> cracks = noise_.row(9, 0.7 * radius, 4U);
     const std::vector<float> whether = noise_.row(5, 0.3, 5U);
+    // Of the plane of the end, so that nothing converges in the pith.
+    const std::vector<float> stains = plane(radius, 2.6, 6U), fine = plane(radius, 70.0, 7U),
+                             pores = plane(radius, 150.0, 8U), rot = plane(radius, 3.4, 9U),
+                             chips = plane(radius, 17.0, 10U);
     for (std::size_t x = 0; x < count_; ++x) {
-        const double grain = static_cast<double>(fine[x]);
-        const double rounded = radius + 0.05 * static_cast<double>(wobble[x]);
+        const auto of = [x](const std::vector<float>& values) {
+            return static_cast<double>(values[x]);
+        };
+        const double grain = of(fine), pore = of(pores);
+        const double rounded = radius + 0.05 * of(wobble) + 0.012 * of(chips);
         // Rings become narrower towards the bark.
         const double ring = rings_ * rounded * (0.7 + 0.3 * rounded);
         const double within = ring - std::floor(ring);
         const double late =
             smooth_step(0.45, 0.92, within) * (1.0 - smooth_step(0.93, 1.0, within));
-        const double heart = 1.0 - smooth_step(0.5, 0.62, rounded);
+        const double heart = 1.0 - smooth_step(0.45, 0.62, rounded + 0.1 * of(stains));
         glm::dvec3 colour = sapwood_ + heart * (heartwood_ - sapwood_);
-        colour *= 1.0 - 0.17 * late + 0.055 * grain + 0.045 * static_cast<double>(rays[x]);
-        // Sun and rain turn wood grey, unevenly.
-        const double grey = 0.3 + 0.35 * static_cast<double>(stains[x]);
+        colour *=
+            1.0 - 0.2 * late + 0.16 * grain + 0.12 * pore + 0.05 * of(rays) + 0.14 * of(chips);
+        // Sun and rain turn wood grey; fungi bleach it, and draw dark lines round what is theirs.
+        const double grey = 0.45 + 0.5 * of(stains) + 0.15 * of(chips);
         const double mean = (colour.x + colour.y + colour.z) / 3.0;
-        colour += std::clamp(grey, 0.0, 0.7) * (0.88 * glm::dvec3(mean) - colour);
-        const double open = smooth_step(0.0, 0.2, static_cast<double>(whether[x])) * radius;
+        colour += std::clamp(grey, 0.0, 0.8) * (0.74 * glm::dvec3(mean) - colour);
+        const double decayed = of(rot) + 0.12 * of(chips) + 0.04 * grain;
+        colour += 0.3 * smooth_step(0.1, 0.16, decayed) * (glm::dvec3(0.72, 0.66, 0.54) - colour);
+        const double line = 1.0 - smooth_step(0.008, 0.03, std::abs(decayed - 0.1));
+        colour *= 1.0 - 0.6 * line;
+        const double algae = smooth_step(0.55, 1.0, radius + 0.5 * of(stains));
+        colour += 0.35 * algae * (glm::dvec3(0.3, 0.33, 0.2) - colour);
+        const double open = smooth_step(0.0, 0.2, of(whether)) * radius;
         const double crack =
-            1.0 - smooth_step(0.0, 0.05 * open + 1e-6, std::abs(static_cast<double>(cracks[x])));
-        colour *= 1.0 - 0.55 * crack * std::min(1.0, 3.0 * open);
-        const double rind = smooth_step(0.93, 0.94, rounded - 0.02 * grain);
-        colour += rind * ((0.75 + 0.15 * grain) * bark_ - colour);
-        const double cambium = rind * (1.0 - smooth_step(0.94, 0.955, rounded));
-        colour *= 1.0 - 0.28 * cambium;
+            1.0 - smooth_step(0.0, 0.05 * open + 1e-6, std::abs(of(cracks) + 0.03 * of(chips)));
+        const double gap = crack * std::min(1.0, 3.0 * open);
+        colour *= 1.0 - 0.75 * gap;
+        const double rind = smooth_step(0.945, 0.952, radius + 0.012 * of(chips));
+        colour += rind * ((0.6 + 0.3 * grain + 0.2 * pore) * bark_ - colour);
+        const double cambium = rind * (1.0 - smooth_step(0.955, 0.966, radius));
+        colour *= 1.0 - 0.5 * cambium;
         set_colour(images_, y * count_ + x, colour);
         const std::size_t at = 3 * (y * count_ + x);
-        images_.rgb[1][at] = share_as_byte(0.5 + 0.12 * static_cast<double>(rays[x]));
-        images_.rgb[1][at + 1] = share_as_byte(0.5 + 0.12 * grain + 0.06 * (late - 0.3));
+        images_.rgb[1][at] = share_as_byte(0.5 + 0.16 * grain + 0.05 * of(rays));
+        images_.rgb[1][at + 1] = share_as_byte(0.5 + 0.16 * pore + 0.06 * (late - 0.3));
         images_.rgb[1][at + 2] = share_as_byte(0.985);
-        images_.rgb[2][at] =
-            share_as_byte(1.0 - 0.6 * crack * std::min(1.0, 3.0 * open) - 0.3 * cambium);
-        images_.rgb[2][at + 1] = share_as_byte(0.88 + 0.08 * grain);
+        images_.rgb[2][at] = share_as_byte(1.0 - 0.7 * gap - 0.5 * cambium + 0.2 * pore);
+        images_.rgb[2][at + 1] = share_as_byte(0.9 + 0.08 * grain);
     }
 }
 
@@ -255,9 +408,14 @@ RawImages wood_images(const WoodPaint& paint, const Parallel& parallel) {
     const WoodStyle style = style_of(paint.substrate);
     const auto kind = static_cast<std::uint32_t>(paint.substrate);
     const int side = paint.texture_size;
-    RawImages images = bark_images(style.bark, wood_seed + kind, side, parallel);
+    if (side < 16 || side > 2048 || (side & (side - 1)) != 0)
+        throw InvalidInput("/side", std::to_string(side) + " is no power of two in 16..2048");
+    RawImages images;
+    images.side = side;
+    for (Bytes& image : images.rgb)
+        image.assign(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
     EndPainter ends(style, wood_seed + kind, images);
-    BarkWeather bark(wood_seed + kind, images);
+    BarkPainter bark(paint.substrate, style, images);
     const auto first_end = static_cast<std::size_t>(ends.first());
     for_each_row(side, parallel, [&](std::size_t y) {
         if (y < first_end)
@@ -265,6 +423,8 @@ RawImages wood_images(const WoodPaint& paint, const Parallel& parallel) {
         else
             ends.paint_row(y);
     });
+    for_each_row(static_cast<int>(first_end), parallel,
+                 [&](std::size_t y) { bark.resolve_normals(y, first_end); });
     return images;
 }
 

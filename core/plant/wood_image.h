@@ -20,7 +20,7 @@ struct WoodPaint {
 inline constexpr double wood_bark_end = 0.74, wood_end_rim = 0.77, wood_end_middle = 0.99;
 
 /// The length of the bark of one image along the piece, in girths.
-inline constexpr double wood_girths = 0.74;
+inline constexpr double wood_girths = 0.5 * wood_bark_end;
 
 /// Paints base colour, normal (+Y up) and occlusion-roughness-metalness.
 ///
