@@ -91,7 +91,10 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
         budget.cells = cell_budget(individual);
         budget.blades = blade_budget(individual, budget.cells.pores > 0);
         // Levels between whole ones are for distances at which smoothness is not seen.
-        while (!level.is_whole() && (drop_row(budget.blades) || drop_row(budget.cells))) continue;
+        if (!level.is_whole()) {
+            while (drop_row(budget.blades)) continue;
+            coarsen(budget.cells);
+        }
     }
     const MeshCount body = body_count(individual, level, solids);
     const auto total = [&] {

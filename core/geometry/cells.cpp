@@ -13,13 +13,13 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int spine_sides = 4;
+constexpr int least_sides = 3;
 
 /// Rings of corners of a spine between its base and its tip: with one it is an awl that hangs in a
 /// curve, without one a cone.
 constexpr int spine_rings = 1;
 int spine_triangles(const CellBudget& budget) {
-    return spine_sides * (2 * budget.rings + 1) + spine_sides - 2;
+    return budget.sides * (2 * budget.rings + 1) + budget.sides - 2;
 }
 
 /// Rings of corners of a pore: outer base, rim, inner base.
@@ -33,7 +33,7 @@ constexpr double vanishing_depth = 0.01;
 
 /// Length of the shortest spine relative to that of the longest,; radius at the base of the steepest one and the sideways displacement of its
 /// tip, in heights; how much of the latter is along the meridian.
-constexpr double shortest_spine = 0.4, steepest_spine = 0.45, spine_lean = 0.12,
+constexpr double shortest_spine = 0.4, steepest_spine = 0.28, spine_lean = 0.12,
                  spine_lean_out = 0.6;
 
 /// Share of the vertical in the direction of the tip of a spine on a face that looks down, and the
@@ -112,7 +112,7 @@ double spine_size(const CellPlace& place) {
 
 // Appends a spine, whose base is closed by a polygon. It begins square to the face, and its tip hangs.
 void add_spine(const Attachment& attachment, const CellBudget& budget, const PlacedCell& cell) {
-    constexpr int sides = spine_sides;
+    const int sides = budget.sides;
     const auto& [place, hymenium, root, down, round, out, width, height] = cell;
     const double radius =
         std::min(0.5 * hymenium.thickness * width * (0.8 + 0.2 * spine_size(place)),
@@ -144,7 +144,7 @@ void add_spine(const Attachment& attachment, const CellBudget& budget, const Pla
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         append_triangle(attachment.mesh, first + a, first + b, first + c);
     };
-    constexpr std::size_t row = spine_sides + 1;
+    const auto row = static_cast<std::size_t>(sides) + 1;
     for (std::size_t i = 0; i + 1 < rows; ++i)
         for (std::size_t j = i * row; j + 1 < (i + 1) * row; ++j) {
             add(j, j + 1, j + row);
@@ -210,7 +210,7 @@ CellBudget cell_budget(const Individual& individual) {
 }
 
 MeshCount solid_count(const CellBudget& budget) {
-    return {static_cast<std::uint64_t>(budget.spines * (budget.rings + 2) * (spine_sides + 1)) +
+    return {static_cast<std::uint64_t>(budget.spines * (budget.rings + 2) * (budget.sides + 1)) +
                 static_cast<std::uint64_t>(budget.pores * (pore_rings + 1) * (budget.corners + 1)),
             static_cast<std::uint64_t>(budget.spines * spine_triangles(budget)) +
                 static_cast<std::uint64_t>(budget.pores * pore_triangles(budget))};
@@ -220,6 +220,11 @@ bool drop_row(CellBudget& budget) {
     if (budget.spines == 0 || budget.rings == 0) return false;
     --budget.rings;
     return true;
+}
+
+void coarsen(CellBudget& budget) {
+    budget.rings = 0;
+    budget.sides = least_sides;
 }
 
 void add_cells(const Attachment& attachment, const CellBudget& budget) {
