@@ -517,25 +517,40 @@ std::vector<std::array<std::uint32_t, 3>> blade_faces(std::uint32_t first, std::
     return faces;
 }
 
-// Swaps both sides of a blade, whose vertices are the last of the mesh and begin at `first`, if its
-// faces point inwards. Where a fan turns back to its substrate, a blade may run round the axis
-// against its thickness direction.
-void orient_blade(Mesh& mesh, std::uint32_t first,
-                  const std::vector<std::array<std::uint32_t, 3>>& faces) {
+// Returns six times the volume of a blade whose vertices begin at `first`.
+double volume_of(const Mesh& mesh, std::uint32_t first,
+                 const std::vector<std::array<std::uint32_t, 3>>& faces) {
     double volume = 0.0;
     const glm::dvec3 origin(mesh.positions[first]);
     for (const auto& [a, b, c] : faces)
         volume += glm::dot(glm::dvec3(mesh.positions[a]) - origin,
                            glm::cross(glm::dvec3(mesh.positions[b]) - origin,
                                       glm::dvec3(mesh.positions[c]) - origin));
-    if (!(volume < 0.0)) return;
-    for (std::uint32_t row = first; row < mesh.positions.size(); row += row_corners)
-        for (std::uint32_t k = 0; k < row_corners / 2; ++k) {
-            std::swap(mesh.positions[row + k], mesh.positions[row + row_corners - 1 - k]);
-            std::swap(mesh.normals[row + k], mesh.normals[row + row_corners - 1 - k]);
-            if (!mesh.tangents.empty())
-                std::swap(mesh.tangents[row + k], mesh.tangents[row + row_corners - 1 - k]);
-        }
+    return volume;
+}
+
+// Swaps both sides of a blade, whose vertices are the last of the mesh and begin at `first`, if its
+// faces point inwards. Where a fan turns back to its substrate, a blade may run round the axis
+// against its thickness direction. A tiny blade that is bent to a hook has more volume inside out
+// than outside in either way: it becomes a sheet.
+void orient_blade(Mesh& mesh, std::uint32_t first,
+                  const std::vector<std::array<std::uint32_t, 3>>& faces) {
+    if (!(volume_of(mesh, first, faces) < 0.0)) return;
+    const auto for_each_pair = [&](const auto& visit) {
+        for (std::uint32_t row = first; row < mesh.positions.size(); row += row_corners)
+            for (std::uint32_t k = 0; k < row_corners / 2; ++k)
+                visit(row + k, row + static_cast<std::uint32_t>(row_corners) - 1 - k);
+    };
+    for_each_pair([&](std::uint32_t one, std::uint32_t other) {
+        std::swap(mesh.positions[one], mesh.positions[other]);
+        std::swap(mesh.normals[one], mesh.normals[other]);
+        if (!mesh.tangents.empty()) std::swap(mesh.tangents[one], mesh.tangents[other]);
+    });
+    if (!(volume_of(mesh, first, faces) < 0.0)) return;
+    for_each_pair([&](std::uint32_t one, std::uint32_t other) {
+        mesh.positions[one] = mesh.positions[other] =
+            0.5F * (mesh.positions[one] + mesh.positions[other]);
+    });
 }
 
 // Appends the placed rows as a blade; without `drawn` only its vertices.

@@ -82,6 +82,10 @@ bool drop_surplus(OrnamentDetail& detail) {
     return true;
 }
 
+/// The share of a level's triangles that rows beyond the usual ones leave to the ground: one in so
+/// many.
+constexpr std::uint64_t room_for_ground = 12;
+
 Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     Budget budget;
     budget.ornaments = detail_of(level);
@@ -97,20 +101,26 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
         }
     }
     const MeshCount body = body_count(individual, level, solids);
-    const auto total = [&] {
+    const auto total_of = [&](const OrnamentDetail& ornaments) {
         MeshCount count = body;
-        count += ornament_count(individual, budget.ornaments);
+        count += ornament_count(individual, ornaments);
         if (solids) {
             count += solid_count(budget.cells);
             count += solid_count(individual, budget.blades);
         }
         return count;
     };
-    budget.count = total();
     const std::uint64_t limit = triangle_limit(level);
+    // Smoothness leaves room for the ground, whether there is any: the ground changes nothing else.
+    OrnamentDetail bare = budget.ornaments;
+    bare.ground = 0.0;
+    while (solids && total_of(bare).triangles > limit - limit / room_for_ground &&
+           (drop_row(budget.blades) || drop_row(budget.cells)))
+        continue;
+    const auto total = [&] { return total_of(budget.ornaments); };
+    budget.count = total();
     while (budget.count.triangles > limit &&
-           ((solids && (drop_row(budget.blades) || drop_row(budget.cells))) ||
-            drop_surplus(budget.ornaments) || drop_ground(individual, budget.ornaments) ||
+           (drop_surplus(budget.ornaments) || drop_ground(individual, budget.ornaments) ||
             coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
             (!solids && drop_patches(budget.ornaments, level)) ||
             drop_free_solids(individual, budget.ornaments)))

@@ -62,6 +62,11 @@ constexpr double lump_stray = 0.30, lump_rise = 0.16, least_flatness = 0.6, most
 /// number.
 constexpr double least_lump = 0.25, lump_power = 1.8;
 
+/// Crumbs for each lump; their size, in that of the largest lump; how far beyond the edge of the soil
+/// the farthest lie, in its reaches; share of them that lies beyond it; how far their corners stray.
+constexpr double crumbs_per_lump = 2.0, least_crumb = 0.1, most_crumb = 0.34, farthest_crumb = 0.45,
+                 crumbs_beyond = 0.45, crumb_stray = 0.5;
+
 /// How a kind of litter is shaped and lies.
 struct PieceForm {
     std::array<double, 5> widths;    ///< half, along it, in shares of the largest
@@ -81,9 +86,10 @@ constexpr PieceForm form_of(LitterKind kind) {
         case LitterKind::grass:
             return {{0.8, 1.0, 0.85, 0.55, 0.0}, 0.035, 0.008, 48.0, 84.0, 0.45, 0.0, 0.08};
         case LitterKind::moss:
-            return {{0.5, 1.0, 0.9, 0.6, 0.0}, 0.07, 0.06, 42.0, 88.0, 0.3, 0.0, 0.15};
+            // Whorls of leaves, one above the other.
+            return {{0.35, 1.0, 0.4, 0.8, 0.0}, 0.085, 0.05, 42.0, 88.0, 0.3, 0.0, 0.15};
         case LitterKind::chips:
-            return {{0.8, 1.0, 0.9, 0.8, 0.0}, 0.17, 0.09, -6.0, 12.0, 0.02, 0.15, 0.0};
+            return {{0.35, 0.85, 1.0, 0.55, 0.0}, 0.13, 0.035, -6.0, 12.0, 0.08, 0.12, 0.0};
     }
     return {};
 }
@@ -99,14 +105,14 @@ constexpr double strand_width = 0.022, strand_wind = 0.16;
 /// where there is none, and the shares of the lumps and strands, and of the litter, that are built.
 struct Resolution {
     int least_columns;
-    SolidGrid clod, lump, rod, strand;
+    SolidGrid clod, lump, rod, strand, crumb;
     double lumps, litter;
 };
 constexpr std::array<Resolution, 4> resolutions = {
-    {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, {8, 3, false}, 1.0, 1.0},
-     {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, 0.15, 0.5},
-     {12, {3, 8, false}, {}, {3, 3, false}, {}, 0.0, 0.15},
-     {0, {3, 6, false}, {}, {}, {}, 0.0, 0.0}}};
+    {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, {8, 3, false}, {3, 5, false}, 1.0, 1.0},
+     {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, {}, 0.15, 0.5},
+     {12, {3, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
+     {0, {3, 6, false}, {}, {}, {}, {}, 0.0, 0.0}}};
 
 int built(int count, double share, const Detail& detail) {
     return static_cast<int>(std::ceil(detail.ground * share * count));
@@ -114,7 +120,7 @@ int built(int count, double share, const Detail& detail) {
 
 /// The pieces that a level builds of one style.
 struct Built {
-    int clods = 0, lumps = 0, pieces = 0, strands = 0;
+    int clods = 0, lumps = 0, pieces = 0, strands = 0, crumbs = 0;
 };
 
 Built built_of(const GroundStyle& style, const Detail& detail) {
@@ -122,7 +128,8 @@ Built built_of(const GroundStyle& style, const Detail& detail) {
     const bool has_clod = style.soil.lumps > 0 && detail.ground > 0.0;
     return {has_clod ? 1 : 0, built(style.soil.lumps, resolution.lumps, detail),
             built(style.litter.pieces, resolution.litter, detail),
-            built(style.strands.count, resolution.lumps, detail)};
+            built(style.strands.count, resolution.lumps, detail),
+            resolution.crumb.rows > 0 ? built(style.soil.lumps, crumbs_per_lump, detail) : 0};
 }
 
 /// A place between two neighbouring entries of a table.
@@ -235,6 +242,7 @@ class GroundBuilder {
         for (int i = 0; i < built.lumps; ++i) add_lump(i);
         for (int i = 0; i < built.pieces; ++i) add_piece(i);
         for (int i = 0; i < built.strands; ++i) add_strand(i);
+        for (int i = 0; i < built.crumbs; ++i) add_crumb(i);
     }
 
   private:
@@ -335,6 +343,41 @@ class GroundBuilder {
             close_row(corners, grid);
         }
         append_solid(grid, 0, window, 0.3, corners, at.outwards);
+    }
+
+    /// Appends a grain of soil on the clod or on the ground beside it, so that the soil does not end
+    /// in a line.
+    void add_crumb(int number) {
+        Random random = this->random(3, number);
+        const double angle = angle_of(number, random);
+        const double lot = random.uniform(), far = random.uniform(), size = random.uniform();
+        const double spin = random.uniform(0.0, 2.0 * pi), window = random.uniform();
+        const double radius =
+            weight_ * style_.soil.size * (least_crumb + (most_crumb - least_crumb) * size * size);
+        FootPoint at = clod_.at(
+            at_stem + (at_edge - at_stem) * (lot < crumbs_beyond ? 1.0 : std::sqrt(far)), angle);
+        if (lot < crumbs_beyond) {
+            // Most lie near the edge.
+            at.place += weight_ * style_.soil.reach * farthest_crumb * far * far * far *
+                        level(at.outwards, angle);
+            at.place.y *= 1.0 - smooth_step(0.0, grown_weight, weight_);
+            at.outwards = upwards;
+        }
+        const glm::dvec3 along = square_to(at.outwards, {1.0, 0.05, 0.1});
+        const glm::dvec3 across = glm::cross(at.outwards, along);
+        const SolidGrid& grid = resolution_.crumb;
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < grid.rows; ++i) {
+            const glm::dvec2 profile = of_table(lump_profile, row_place(i, grid));
+            for (int j = 0; j < grid.columns; ++j) {
+                const auto turn = sine_cosine(spin + 2.0 * pi * j / grid.columns);
+                const double r = radius * profile.y * (1.0 + crumb_stray * random.symmetric());
+                corners.push_back(at.place + radius * profile.x * at.outwards +
+                                  r * turn.cosine * along + r * turn.sine * across);
+            }
+            close_row(corners, grid);
+        }
+        append_solid(grid, 0, window, 0.1, corners, at.outwards);
     }
 
     /// A curve with a flat section round it.
@@ -479,6 +522,7 @@ MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& det
         one += resolution.lump.count().times(built.lumps);
         one += resolution.rod.count().times(built.pieces);
         one += resolution.strand.count().times(built.strands);
+        one += resolution.crumb.count().times(built.crumbs);
         if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;
         sum += one;
     }

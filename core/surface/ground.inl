@@ -30,12 +30,23 @@ HWY_INLINE Texel ground_texel(const GroundPlan& plan, VF round, VF up, const VF*
     const float n = static_cast<float>(ground_cells[1]);
     const VF grain = periodic_noise2(round * set(n), up * set(n), ground_cells[1], plan.seed[3]) *
                      set(plan.shown[1]);
+    const float m = static_cast<float>(ground_cells[2]);
+    const VF fine = periodic_noise2(round * set(m), up * set(m), ground_cells[2], plan.seed[2]) *
+                    set(plan.shown[2]);
     Texel out;
-    // Soil: crumbs of humus and paler grains of sand.
-    const VF sand = smooth(grain + cloud * set(0.3F), 0.34F, 1.0F / 0.3F) * set(0.18F);
-    const Rgb soil =
-        mix(shaded(rgb(plan.soil), set(1.25F) + cloud * set(0.30F) + grain * set(0.55F)),
-            Rgb{set(0.30F), set(0.24F), set(0.16F)}, sand);
+    // Soil: crumbs of humus, dark between them, paler grains of sand, and thin roots.
+    const VF sand = smooth(fine + grain * set(0.3F), 0.42F, 1.0F / 0.2F) * set(0.35F);
+    const VF thread = noise2(round * set(17.0F), up * set(9.0F), plan.seed[1]);
+    const VF root =
+        smooth(one - hn::Abs(thread + grain * set(0.10F) + cloud * set(0.25F)) * set(9.0F), 0.35F,
+               1.0F / 0.5F) *
+        smooth(cloud, 0.0F, 1.0F / 0.2F) * set(0.5F);
+    const VF gap = smooth(zero - grain - fine * set(0.4F), 0.12F, 1.0F / 0.4F);
+    const VF tone = set(1.30F) + cloud * set(0.45F) + grain * set(0.55F) + fine * set(0.55F);
+    const Rgb crumbs = mix(shaded(rgb(plan.soil), hn::Max(tone, set(0.25F)) *
+                                                      (one - gap * set(0.55F))),
+                           Rgb{set(0.34F), set(0.28F), set(0.20F)}, sand);
+    const Rgb soil = mix(crumbs, Rgb{set(0.30F), set(0.21F), set(0.12F)}, root);
     // Litter: fibres along it, and dark spots of decay.
     const VF old = smooth(age + cloud * set(0.12F), -0.25F, 1.0F / 0.5F);
     const VF rot = smooth(cloud + grain * set(0.4F), 0.38F, 1.0F / 0.35F) * set(0.6F);
@@ -51,9 +62,11 @@ HWY_INLINE Texel ground_texel(const GroundPlan& plan, VF round, VF up, const VF*
     const VF above_litter = smooth(up, second - 0.01F, 1.0F / 0.02F);
     out.colour = mix(mix(soil, litter, above_soil), strand, above_litter);
     const VF rough = grain * (one - above_soil * set(0.7F));
-    out.height = rough * set(0.30F / n) + fibre * above_soil * set(0.10F / n);
+    const VF crumbled = fine * (one - above_soil);
+    out.height = rough * set(0.34F / n) + crumbled * set(0.26F / m) +
+                 root * (one - above_soil) * set(0.10F / n) + fibre * above_soil * set(0.10F / n);
     out.roughness = set(0.95F) - above_soil * set(0.08F) + grain * set(0.03F);
-    out.occlusion = one + hn::Min(rough, zero) * set(0.5F);
+    out.occlusion = one + hn::Min(rough + crumbled * set(0.5F), zero) * set(0.6F);
     return out;
 }
 

@@ -289,14 +289,14 @@ struct FleshPlan {
 struct GroundPlan {
     std::array<std::uint32_t, 4> seed{};
     float texel_along = 0.0F, texel_across = 0.0F;
-    std::array<float, 2> shown{};  ///< of fibres and grains, 0 where they are smaller than texels
+    std::array<float, 3> shown{};  ///< of fibres and grains, 0 where they are smaller than texels
     Light soil, litter, aged, strands;
 };
 
 /// Width of a tear over its length, as its chart assumes.
 inline constexpr double flesh_width = 0.4;
-/// Fibres of litter and grains of soil round a strip.
-inline constexpr std::array<int, 2> ground_cells = {40, 84};
+/// Fibres of litter, grains of soil and fine grains round a strip.
+inline constexpr std::array<int, 3> ground_cells = {40, 84, 190};
 inline constexpr float blade_grain = 72.0F;  ///< lines across a blade
 inline constexpr std::array<float, 3> flesh_bump_frequency = {11.0F, 26.0F, 58.0F};
 

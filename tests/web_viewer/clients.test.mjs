@@ -23,6 +23,7 @@ before(async () => {
     const scripts = {
         "/forest.js": await bundled(path.join(kit, "examples/forest.ts")),
         "/compare.js": await bundled(path.join(root, "tests/web_viewer/compare_page.mjs")),
+        "/specks.js": await bundled(path.join(root, "tests/web_viewer/specks_page.mjs")),
         "/impostor.js": await bundled(path.join(root, "tests/web_viewer/impostor_page.mjs")),
     };
     pages = createServer(({ url }, response) => {
@@ -190,6 +191,28 @@ test("an impostor looks like the mesh at a distance", async (t) => {
         t.diagnostic(`${product}: outlines differ by ${(100 * worst).toFixed(1)} % at most`);
         assert.deepEqual(log.console.filter((line) => /^(error|uncaught)/.test(line)), []);
     }
+});
+
+test("no species shows a speck from any side", async (t) => {
+    const answer = await fetch(`${server}/v1/species`);
+    const ids = (await answer.json()).species.map(({ id }) => id);
+    const draws = Number(process.env.SPOREPRINT_SPECKS ?? 12);
+    const page = await browser.newPage();
+    t.after(() => page.close());
+    const log = logEvents(page);
+    for (let i = 0; i < draws; ++i) {
+        const id = ids[(11 * i + Math.floor(i / ids.length)) % ids.length];
+        const age = (0.1 + (0.9 * ((37 * i) % 100)) / 100).toFixed(3);
+        const product = `mushrooms/${id}.glb?lod=0&texture_size=512&seed=${i}&age=${age}`;
+        const view = { azimuth: (73 * i) % 360, elevation: [25, 5, 85, -40][i % 4] };
+        await page.goto(`${address}specks?${new URLSearchParams({ server, product, ...view })}`);
+        await page.waitForFunction(() => window.specks, null, { timeout: 120_000 });
+        const { error, found, covered } = await page.evaluate(() => window.specks);
+        assert.equal(error, undefined, product);
+        assert.ok(covered > 0.02, `${product} covers ${covered} of the picture`);
+        assert.deepEqual(found, [], `${product} ${JSON.stringify(view)}`);
+    }
+    assert.deepEqual(log.console.filter((line) => /^(error|uncaught)/.test(line)), []);
 });
 
 test("a refusal names the parameter", async (t) => {
