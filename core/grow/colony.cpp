@@ -165,7 +165,9 @@ MeshCount expected_wood(const ColonySpec& spec, const ColonyTraits& traits, cons
                                     trunk_radius(spec.params, fit));
     const double height =
         rows.height * std::ceil(static_cast<double>(spec.params.count) / rows.in_row);
-    return wood_count(wood_of(spec.params, traits, fit, 0.0, height), lod);
+    const MeshCount count = wood_count(wood_of(spec.params, traits, fit, 0.0, height), lod);
+    // Rows of brackets are uneven, and the wood reaches beyond the outermost.
+    return {count.vertices + count.vertices / 3, count.triangles + count.triangles / 3};
 }
 
 /// Returns about how many vertices and triangles the meshes of a level of detail have.

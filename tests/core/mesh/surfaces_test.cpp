@@ -1,6 +1,5 @@
 // Tests of the distance measures that the continuity tests use.
 #include "tests/support/surfaces.h"
-#include "tests/support/triangle_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "tests/support/triangle_grid.h"
 
 namespace sporeprint::mesh_surfaces_test {
 namespace {
