@@ -18,7 +18,7 @@ constexpr const Chart& chart = swept_charts[static_cast<std::size_t>(Part::blade
 double squeeze_across(const AzimuthMap& azimuth, const OutlineSample& sample,
                       const AzimuthMap::Column& column) {
     if (azimuth.identity()) return 1.0;
-    const auto [s, c] = column.from;
+    const double s = column.from.sine, c = column.from.cosine;
     const auto in_half_plane = [&](double r, double y) { return glm::dvec3(r * c, y, r * s); };
     SurfacePoint layer{in_half_plane(sample.r, sample.y),
                        in_half_plane(sample.tangent_r, sample.tangent_y),
