@@ -1,6 +1,7 @@
 #include "core/geometry/attachment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -27,6 +28,17 @@ double squeeze_across(const AzimuthMap& azimuth, const OutlineSample& sample,
     const double along = std::sqrt(glm::dot(layer.meridian, layer.meridian));
     const glm::dvec3 area = glm::cross(layer.meridian, layer.azimuth);
     return along > 0.0 ? std::sqrt(glm::dot(area, area)) / along : 1.0;
+}
+
+/// Returns the depth of solids under a fan and lobes, relative to that at rest: where the face is
+/// squeezed or stretched, solids become thinner or thicker with it, but not deeper; where the flesh
+/// beside a steep face is squeezed, they become as shallow as that.
+///
+/// meridian  its image
+double depth_under(const AzimuthMap& azimuth, const OutlineSample& sample,
+                   const AzimuthMap::Column& column, const glm::dvec3& meridian) {
+    const double along = std::sqrt(glm::dot(meridian, meridian));
+    return std::min(along, 1.0) * std::min(squeeze_across(azimuth, sample, column), 1.0);
 }
 
 }  // namespace
@@ -86,26 +98,38 @@ Attachment::FacePoint Attachment::nearest_vertex(double share, double angle) con
     return {nearest, column * std::floor(angle / column + 0.5)};
 }
 
-SurfacePoint Attachment::place(Part part, const OutlineSample& sample, double angle,
-                               const AxisStation& station, Thickness thickness) const {
-    const RestSurface::Column column = context.rest_surface.column(angle);
-    SurfacePoint point = context.rest_surface.at(part, sample, column);
-    if (thickness != Thickness::along_face) {
-        const auto [s, c] = column.azimuth.to;
-        const glm::dvec3 round(-s, 0.0, c);
-        const double rise = thickness == Thickness::rising ? point.azimuth.y : 0.0;
-        point.azimuth = glm::dot(point.azimuth, round) * round + glm::dvec3(0.0, rise, 0.0);
-    }
-    // Where a fan squeezes or stretches the face, solids become thinner or thicker with it, but not
-    // deeper; where it squeezes the flesh beside a steep face, they become as shallow as that.
-    const double along = std::sqrt(glm::dot(point.meridian, point.meridian));
-    const double across = squeeze_across(context.rest_surface.azimuth(), sample, column.azimuth);
-    context.deformer.apply({&point, 1}, station);
+void Attachment::finish(Part part, const OutlineSample& sample, double angle, double depth,
+                        SurfacePoint& point) const {
     if (part == Part::hymenium) point.position += context.curl.moved(false, sample.share, angle);
     const glm::dvec3 outward = glm::cross(point.meridian, point.azimuth);
-    point.meridian =
-        std::min(along, 1.0) * std::min(across, 1.0) * unit_or(outward, {0.0, -1.0, 0.0});
+    point.meridian = depth * unit_or(outward, {0.0, -1.0, 0.0});
+}
+
+SurfacePoint Attachment::place(const OutlineSample& sample, double angle,
+                               const AxisStation& station) const {
+    const RestSurface::Column column = context.rest_surface.column(angle);
+    SurfacePoint point = context.rest_surface.at(Part::hymenium, sample, column);
+    const double depth =
+        depth_under(context.rest_surface.azimuth(), sample, column.azimuth, point.meridian);
+    context.deformer.apply({&point, 1}, station);
+    finish(Part::hymenium, sample, angle, depth, point);
     return point;
+}
+
+BladeRoot Attachment::blade_root(Part part, const OutlineSample& sample, double angle,
+                                 const AxisStation& station) const {
+    const RestSurface::Column column = context.rest_surface.column(angle);
+    const SurfacePoint rest = context.rest_surface.at(part, sample, column);
+    const double depth =
+        depth_under(context.rest_surface.azimuth(), sample, column.azimuth, rest.meridian);
+    const auto [s, c] = column.azimuth.to;
+    const glm::dvec3 round(-s, 0.0, c);
+    std::array<SurfacePoint, 2> points{rest, rest};  // level, and rising with the face
+    points[0].azimuth = glm::dot(rest.azimuth, round) * round;
+    points[1].azimuth = points[0].azimuth + glm::dvec3(0.0, rest.azimuth.y, 0.0);
+    context.deformer.apply(points, station);
+    finish(part, sample, angle, depth, points[0]);
+    return {points[0], points[1].azimuth};
 }
 
 void Attachment::add_vertex(const glm::dvec3& position, const glm::dvec3& normal,

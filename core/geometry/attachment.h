@@ -25,12 +25,12 @@ namespace sporeprint {
 /// there.
 [[nodiscard]] double cell_depth(const HymeniumOf<Plain>& hymenium, double share);
 
-/// In which direction a solid is thick. Gills stay in their half-planes through the axis: along the
+/// The root of one cross-section of a blade, which stays in its half-plane through the axis: along the
 /// waves of the face or the turning of a fan, neighbours would overlap.
-enum class Thickness {
-    along_face,  ///< the solid stands perpendicular to the face
-    level,       ///< round the axis
-    rising  ///< round the axis and up or down with the face, so that a base stays in thin flesh
+struct BladeRoot {
+    SurfacePoint point;  ///< its `azimuth`, the direction of thickness, runs round the axis
+    /// The same for the base, up or down with the face, so that a thick base stays in thin flesh.
+    glm::dvec3 base;
 };
 
 /// Computes where solids attach to the flesh of one lower face, and appends their vertices.
@@ -43,11 +43,14 @@ class Attachment {
     /// solid (embedding 0), exactly on the chords of the swept mesh.
     [[nodiscard]] OutlineSample at(double share, double embedding) const;
 
-    /// Returns the world-space point of a sample of a sub-curve; its `meridian` is the outward
-    /// normal of the surface.
-    ///
-    [[nodiscard]] SurfacePoint place(Part part, const OutlineSample& sample, double angle,
-                                     const AxisStation& station, Thickness thickness) const;
+    /// Returns the world-space point of a sample of the lower face, for a solid that stands
+    /// perpendicular to it; its `meridian` is the outward normal of the surface.
+    [[nodiscard]] SurfacePoint place(const OutlineSample& sample, double angle,
+                                     const AxisStation& station) const;
+
+    /// Returns the same of a sample of any sub-curve, for a blade.
+    [[nodiscard]] BladeRoot blade_root(Part part, const OutlineSample& sample, double angle,
+                                       const AxisStation& station) const;
 
     /// A place on the lower face.
     struct FacePoint {
@@ -68,6 +71,12 @@ class Attachment {
     const OrnamentContext& context;
 
   private:
+    /// Turns the meridian of a placed point outwards.
+    ///
+    /// depth  of solids there, relative to that at rest
+    void finish(Part part, const OutlineSample& sample, double angle, double depth,
+                SurfacePoint& point) const;
+
     std::vector<OutlineSample> flesh_;
 };
 

@@ -393,7 +393,7 @@ void Builder::row(const Plan& plan, double embedding) {
         const OutlineSample inner = attachment_.at(0.0, embedding), stem_end = stem.at(1.0);
         root.r += plan.buried * (inner.r - stem_end.r);
         root.y += plan.buried * (inner.y - stem_end.y);
-        row.root = attachment_.place(Part::stem, root, plan.angle, station, Thickness::level);
+        row.root = attachment_.blade_root(Part::stem, root, plan.angle, station).point;
         row.base = row.root.azimuth;
     } else {
         const double whole = plan.along / std::max(face_.length(), 1e-12);
@@ -406,11 +406,9 @@ void Builder::row(const Plan& plan, double embedding) {
         row.stray = plan.stray;
         const OutlineSample root = attachment_.at(share, embedding);
         const AxisStation station = context_.deformer.frozen_station(context_.deformer.top());
-        const auto placed = [&](Thickness thickness) {
-            return attachment_.place(Part::hymenium, root, plan.angle, station, thickness);
-        };
-        row.root = placed(Thickness::level);
-        row.base = placed(Thickness::rising).azimuth;
+        const BladeRoot placed = attachment_.blade_root(Part::hymenium, root, plan.angle, station);
+        row.root = placed.point;
+        row.base = placed.base;
     }
     rows_.push_back(row);
 }

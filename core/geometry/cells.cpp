@@ -31,8 +31,9 @@ constexpr int pore_rings = 3;
 /// nearest vertex.
 constexpr double vanishing_depth = 0.01;
 
-/// Length of the shortest spine relative to that of the longest,; radius at the base of the steepest one and the sideways displacement of its
-/// tip, in heights; how much of the latter is along the meridian.
+/// Length of the shortest spine relative to that of the longest; radius at the base of the steepest
+/// one and the sideways displacement of its tip, in heights; how much of the latter is along the
+/// meridian.
 constexpr double shortest_spine = 0.4, steepest_spine = 0.28, spine_lean = 0.12,
                  spine_lean_out = 0.6;
 
@@ -58,8 +59,7 @@ SurfacePoint cell_root(const Attachment& attachment, const CellPlace& cell, doub
     const double angle = rest.angle + embedding * (own - rest.angle);
     const double share =
         attachment.context.cuts.lower(rest.share + embedding * (cell.share - rest.share), angle);
-    return attachment.place(Part::hymenium, attachment.at(share, embedding), angle, station,
-                            Thickness::along_face);
+    return attachment.place(attachment.at(share, embedding), angle, station);
 }
 
 // A cell in space: the frame at its base, and its dimensions, metres.

@@ -302,6 +302,40 @@ class GroundBuilder {
         append_solid(grid, 0, 0.0, 1.0, corners, upwards);
     }
 
+    /// How a pebble lies: a unit direction on the ground, its length across that, in widths, and the
+    /// angle of its first corner.
+    struct Lie {
+        glm::dvec3 along;
+        double length, spin;
+    };
+    /// A piece of the strip of soil: where it begins and its share, as append_solid() takes them.
+    struct Window {
+        double from, share;
+    };
+
+    /// Appends a lump or a crumb.
+    ///
+    /// corner  returns height and radius of a corner (row, column, profile of the row), metres; called
+    ///         in the order of the grid
+    template <class Corner>
+    void add_pebble(const SolidGrid& grid, const FootPoint& at, const Lie& lie,
+                    const Window& window, const Corner& corner) {
+        const glm::dvec3 across = glm::cross(at.outwards, lie.along);
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < grid.rows; ++i) {
+            const glm::dvec2 profile = of_table(lump_profile, row_place(i, grid));
+            for (int j = 0; j < grid.columns; ++j) {
+                const auto turn = sine_cosine(lie.spin + 2.0 * pi * j / grid.columns);
+                const glm::dvec2 size = corner(i, j, profile);
+                corners.push_back(at.place + size.x * at.outwards +
+                                  size.y * turn.cosine * lie.along +
+                                  size.y * turn.sine * lie.length * across);
+            }
+            close_row(corners, grid);
+        }
+        append_solid(grid, 0, window.from, window.share, corners, at.outwards);
+    }
+
     void add_lump(int number) {
         Random random = this->random(0, number);
         const double place = static_cast<double>(number) / std::max(style_.soil.lumps, 1);
@@ -319,30 +353,21 @@ class GroundBuilder {
                                          : at_edge + (at_end - at_edge) * far,
                      angle);
         const glm::dvec3 along = square_to(at.outwards, {0.0, 1.0, 0.05});
-        const glm::dvec3 across = glm::cross(at.outwards, along);
         std::array<std::array<double, 2>, 4 * 5> stray{};
         for (auto& [wide, high] : stray) {
             wide = lump_stray * random.symmetric();
             high = lump_rise * random.symmetric();
         }
         const SolidGrid& grid = resolution_.lump;
-        std::vector<glm::dvec3> corners;
-        for (int i = 0; i < grid.rows; ++i) {
-            const glm::dvec2 profile = of_table(lump_profile, row_place(i, grid));
+        const auto corner = [&](int i, int j, const glm::dvec2& profile) {
             const auto ring = static_cast<std::size_t>(3 * i / (grid.rows - 1));
+            const auto& [wide, high] =
+                stray[5 * ring + static_cast<std::size_t>(5 * j / grid.columns)];
             const bool is_tip = i + 1 == grid.rows;
-            for (int j = 0; j < grid.columns; ++j) {
-                const auto& [wide, high] =
-                    stray[5 * ring + static_cast<std::size_t>(5 * j / grid.columns)];
-                const auto turn = sine_cosine(spin + 2.0 * pi * j / grid.columns);
-                const double r = radius * profile.y * (1.0 + wide);
-                const double rise = flat * radius * (profile.x + (is_tip ? 0.0 : high));
-                corners.push_back(at.place + rise * at.outwards + r * turn.cosine * along +
-                                  r * turn.sine * length * across);
-            }
-            close_row(corners, grid);
-        }
-        append_solid(grid, 0, window, 0.3, corners, at.outwards);
+            return glm::dvec2(flat * radius * (profile.x + (is_tip ? 0.0 : high)),
+                              radius * profile.y * (1.0 + wide));
+        };
+        add_pebble(grid, at, {along, length, spin}, {window, 0.3}, corner);
     }
 
     /// Appends a grain of soil on the clod or on the ground beside it, so that the soil does not end
@@ -363,21 +388,12 @@ class GroundBuilder {
             at.place.y *= 1.0 - smooth_step(0.0, grown_weight, weight_);
             at.outwards = upwards;
         }
-        const glm::dvec3 along = square_to(at.outwards, {1.0, 0.05, 0.1});
-        const glm::dvec3 across = glm::cross(at.outwards, along);
-        const SolidGrid& grid = resolution_.crumb;
-        std::vector<glm::dvec3> corners;
-        for (int i = 0; i < grid.rows; ++i) {
-            const glm::dvec2 profile = of_table(lump_profile, row_place(i, grid));
-            for (int j = 0; j < grid.columns; ++j) {
-                const auto turn = sine_cosine(spin + 2.0 * pi * j / grid.columns);
-                const double r = radius * profile.y * (1.0 + crumb_stray * random.symmetric());
-                corners.push_back(at.place + radius * profile.x * at.outwards +
-                                  r * turn.cosine * along + r * turn.sine * across);
-            }
-            close_row(corners, grid);
-        }
-        append_solid(grid, 0, window, 0.1, corners, at.outwards);
+        const auto corner = [&](int, int, const glm::dvec2& profile) {
+            return glm::dvec2(radius * profile.x,
+                              radius * profile.y * (1.0 + crumb_stray * random.symmetric()));
+        };
+        add_pebble(resolution_.crumb, at, {square_to(at.outwards, {1.0, 0.05, 0.1}), 1.0, spin},
+                   {window, 0.1}, corner);
     }
 
     /// A curve with a flat section round it.

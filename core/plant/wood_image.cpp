@@ -314,7 +314,11 @@ class EndPainter {
           images_(images),
           bark_(0.5 * (encoded(style.ridge) + encoded(style.furrow))),
           sapwood_(encoded(style.sapwood)),
-          heartwood_(encoded(style.heartwood)) {}
+          heartwood_(encoded(style.heartwood)) {
+        for (std::size_t x = 0; x < count_; ++x)
+            directions_.push_back(sine_cosine(2.0 * pi * (static_cast<double>(x) + 0.5) /
+                                              static_cast<double>(count_)));
+    }
 
     /// Returns the first row that is end grain.
     [[nodiscard]] int first() const {
@@ -329,10 +333,8 @@ class EndPainter {
                                            std::uint32_t purpose) const {
         std::vector<float> u(count_), v(count_), out(count_);
         for (std::size_t x = 0; x < count_; ++x) {
-            const SineCosine to = sine_cosine(2.0 * pi * (static_cast<double>(x) + 0.5) /
-                                              static_cast<double>(count_));
-            u[x] = static_cast<float>(features * radius * to.sine);
-            v[x] = static_cast<float>(features * radius * to.cosine);
+            u[x] = static_cast<float>(features * radius * directions_[x].sine);
+            v[x] = static_cast<float>(features * radius * directions_[x].cosine);
         }
         gradient_noise(u, v, seed_ * 16U + purpose, out);
         return out;
@@ -344,6 +346,7 @@ class EndPainter {
     RowNoise noise_;
     RawImages& images_;
     glm::dvec3 bark_, sapwood_, heartwood_;
+    std::vector<SineCosine> directions_;  ///< of the texels of a row from the pith
 };
 
 void EndPainter::paint_row(std::size_t y) {

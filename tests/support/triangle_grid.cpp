@@ -96,7 +96,7 @@ void TriangleGrid::shell(const Cell& home, int reach, const Visit& visit) const 
             }
 }
 
-double TriangleGrid::squared_distance(const glm::dvec3& p, double enough, double limit) {
+double TriangleGrid::squared_distance(const glm::dvec3& p, double enough, double reach) {
     double best = infinite;
     const auto try_one = [&](std::size_t t) {
         const auto [a, b, c] = corners_of(mesh_, t);
@@ -108,11 +108,11 @@ double TriangleGrid::squared_distance(const glm::dvec3& p, double enough, double
     try_one(last_);
     const auto home = cell_of(p);
     const int shells = std::max({count_[0], count_[1], count_[2]});
-    for (int reach = 0; reach <= shells && best > enough; ++reach) {
+    for (int ring = 0; ring <= shells && best > enough; ++ring) {
         // All cells of the inner shells have been searched; the others lie beyond them.
-        const double wall = wall_distance(p, home, reach - 1);
-        if (best <= wall * wall || wall > limit) break;
-        shell(home, reach, [&](const std::vector<std::size_t>& triangles) {
+        const double wall = wall_distance(p, home, ring - 1);
+        if (best <= wall * wall || wall > reach) break;
+        shell(home, ring, [&](const std::vector<std::size_t>& triangles) {
             for (const std::size_t t : triangles) try_one(t);
         });
     }

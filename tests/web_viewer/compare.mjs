@@ -19,6 +19,31 @@ export function pictureRenderer() {
     return renderer;
 }
 
+/** Returns a scene of a model under the lamps of all comparisons. */
+export function litScene(model) {
+    const scene = new Scene();
+    const sun = new DirectionalLight(0xffffff, 2);
+    sun.position.set(-1, 2, 1.5);
+    scene.add(model, sun, new AmbientLight(0xffffff, 1));
+    return scene;
+}
+
+/** Returns the means of samples x samples pixels of what a renderer has drawn on its square canvas:
+ *  red, green, blue (multiplied by coverage) and coverage, 0 to 255, of a picture of side x side. */
+export function averagedPixels(renderer, side, samples) {
+    const gl = renderer.getContext();
+    const wide = side * samples;
+    const fine = new Uint8Array(4 * wide * wide);
+    gl.readPixels(0, 0, wide, wide, gl.RGBA, gl.UNSIGNED_BYTE, fine);
+    const pixels = new Float64Array(4 * side * side);
+    for (let y = 0; y < wide; ++y)
+        for (let x = 0; x < wide; ++x)
+            for (let k = 0; k < 4; ++k)
+                pixels[4 * (Math.floor(y / samples) * side + Math.floor(x / samples)) + k] +=
+                    fine[4 * (y * wide + x) + k] / samples ** 2;
+    return pixels;
+}
+
 /** Returns the pixels of a model, seen from the front, as RGBA, and its draw calls.
  *
  *  bounds    of the model
@@ -29,10 +54,7 @@ export function picture(
     model,
     { bounds = new Box3().setFromObject(model, true), distance = 4, update = () => {} } = {},
 ) {
-    const scene = new Scene();
-    const sun = new DirectionalLight(0xffffff, 2);
-    sun.position.set(-1, 2, 1.5);
-    scene.add(model, sun, new AmbientLight(0xffffff, 1));
+    const scene = litScene(model);
     const ball = bounds.getBoundingSphere(new Sphere());
     const camera = new PerspectiveCamera(30, 1, ball.radius / 10, ball.radius * 5 * distance);
     camera.position.copy(ball.center);

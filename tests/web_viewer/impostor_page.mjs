@@ -2,18 +2,9 @@
 // sets window.impostor to how far both are from the mesh. Bundled and run by clients.test.mjs.
 //
 //   ?server=...&product=mushrooms/x&side=40[&options=seed=3]
-import {
-    AmbientLight,
-    Box3,
-    Color,
-    DirectionalLight,
-    PerspectiveCamera,
-    Scene,
-    Sphere,
-    Vector3,
-    WebGLRenderer,
-} from "three";
+import { Box3, Color, PerspectiveCamera, Sphere, Vector3, WebGLRenderer } from "three";
 import { Impostor, Sporeprint } from "../../web_viewer/clients/three/index.ts";
+import { averagedPixels, litScene } from "./compare.mjs";
 
 /** Azimuths and elevations of the camera, degrees: on frames, between them and low. */
 const views = [
@@ -32,14 +23,6 @@ const side = Number(query.get("side") ?? 40);
 /** Samples of a pixel in each direction. */
 const samples = 4;
 
-function sceneOf(model) {
-    const scene = new Scene();
-    const sun = new DirectionalLight(0xffffff, 2);
-    sun.position.set(-1, 2, 1.5);
-    scene.add(model, sun, new AmbientLight(0xffffff, 1));
-    return scene;
-}
-
 /** Returns a camera that sees a ball, as large as the picture allows. */
 function cameraOf(ball, [azimuth, elevation]) {
     // On a screen 1,080 pixels high, something of 40 pixels is seen at about two degrees.
@@ -51,22 +34,6 @@ function cameraOf(ball, [azimuth, elevation]) {
     camera.position.copy(ball.center).addScaledVector(toward, distance);
     camera.lookAt(ball.center);
     return camera;
-}
-
-/** Returns the pixels of a scene as red, green, blue (multiplied by coverage) and coverage, 0 to 255. */
-function pixelsOf(renderer, scene, camera) {
-    renderer.render(scene, camera);
-    const gl = renderer.getContext();
-    const wide = side * samples;
-    const fine = new Uint8Array(4 * wide * wide);
-    gl.readPixels(0, 0, wide, wide, gl.RGBA, gl.UNSIGNED_BYTE, fine);
-    const pixels = new Float64Array(4 * side * side);
-    for (let y = 0; y < wide; ++y)
-        for (let x = 0; x < wide; ++x)
-            for (let k = 0; k < 4; ++k)
-                pixels[4 * (Math.floor(y / samples) * side + Math.floor(x / samples)) + k] +=
-                    fine[4 * (y * wide + x) + k] / samples ** 2;
-    return pixels;
 }
 
 /** Returns how many pixels a picture covers, and the mean colour of what it covers, 0 to 255. */
@@ -111,7 +78,7 @@ async function run() {
     renderer.setSize(side * samples, side * samples, false);
     const ball = new Box3().setFromObject(near.scene, true).getBoundingSphere(new Sphere());
     const shaded = Impostor.of(far.scene);
-    const scenes = [near.scene, far.scene, shaded.mesh()].map(sceneOf);
+    const scenes = [near.scene, far.scene, shaded.mesh()].map(litScene);
     const sheet = document.createElement("canvas");
     const shown = Math.max(side, 200);
     sheet.width = shown * views.length;
@@ -123,7 +90,8 @@ async function run() {
     const found = views.map((view, column) => {
         const camera = cameraOf(ball, view);
         const pixels = scenes.map((scene, row) => {
-            const read = pixelsOf(renderer, scene, camera);
+            renderer.render(scene, camera);
+            const read = averagedPixels(renderer, side, samples);
             context.drawImage(canvas, column * shown, row * shown, shown, shown);
             return read;
         });

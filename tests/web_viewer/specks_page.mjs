@@ -5,17 +5,9 @@
 // alike in tests/core/grow/mushroom_properties_test.cpp.
 //
 //   ?server=...&product=mushrooms/x.glb%3Fseed=3&azimuth=40&elevation=20
-import {
-    AmbientLight,
-    Box3,
-    Color,
-    DirectionalLight,
-    PerspectiveCamera,
-    Scene,
-    Sphere,
-    WebGLRenderer,
-} from "three";
+import { Box3, Color, PerspectiveCamera, Sphere, WebGLRenderer } from "three";
 import { Sporeprint } from "../../web_viewer/clients/three/index.ts";
+import { averagedPixels, litScene } from "./compare.mjs";
 
 const query = new URLSearchParams(location.search);
 const side = 256;
@@ -25,19 +17,13 @@ const stark = 64;
 
 /** Returns the luminance, 0 to 255, of the pixels of a square picture over grey. */
 function luminances(renderer, scene, camera, size) {
-    const wide = size * samples;
-    renderer.setSize(wide, wide, false);
+    renderer.setSize(size * samples, size * samples, false);
     renderer.render(scene, camera);
-    const gl = renderer.getContext();
-    const fine = new Uint8Array(4 * wide * wide);
-    gl.readPixels(0, 0, wide, wide, gl.RGBA, gl.UNSIGNED_BYTE, fine);
-    const light = new Float64Array(size * size);
-    for (let y = 0; y < wide; ++y)
-        for (let x = 0; x < wide; ++x) {
-            const at = 4 * (y * wide + x);
-            light[Math.floor(y / samples) * size + Math.floor(x / samples)] +=
-                (0.299 * fine[at] + 0.587 * fine[at + 1] + 0.114 * fine[at + 2]) / samples ** 2;
-        }
+    const pixels = averagedPixels(renderer, size, samples);
+    const light = Float64Array.from({ length: size * size }, (_, i) => {
+        const [red, green, blue] = pixels.subarray(4 * i, 4 * i + 3);
+        return 0.299 * red + 0.587 * green + 0.114 * blue;
+    });
     return { light, size };
 }
 
@@ -70,11 +56,8 @@ async function search() {
     const { scene: model } = await sporeprint.load(query.get("product"));
     const canvas = document.querySelector("canvas");
     const renderer = new WebGLRenderer({ canvas, preserveDrawingBuffer: true });
-    const scene = new Scene();
+    const scene = litScene(model);
     scene.background = new Color(0x808080);
-    const sun = new DirectionalLight(0xffffff, 2);
-    sun.position.set(-1, 2, 1.5);
-    scene.add(model, sun, new AmbientLight(0xffffff, 1));
     const ball = new Box3().setFromObject(model, true).getBoundingSphere(new Sphere());
     const camera = new PerspectiveCamera(30, 1, ball.radius / 10, ball.radius * 20);
     const [azimuth, elevation] = ["azimuth", "elevation"].map(

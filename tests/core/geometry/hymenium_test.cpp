@@ -31,6 +31,16 @@ std::vector<Mesh> solids(const Mesh& mesh) {
     return found;
 }
 
+/// Returns the same request for an individual that is its outline revolved about an upright axis.
+MushroomSpec upright(MushroomSpec order) {
+    order.params.variation = 0.0;
+    order.params.deformation.bend_deg = 0.0;
+    order.params.deformation.lean_deg = 0.0;
+    order.params.deformation.imperfection = 0.0;
+    order.params.weathering.waves = 0.0;
+    return order;
+}
+
 /// A toothed fungus: the cep's shape with spines.
 Model toothed(double per_mm = 0.5) {
     Model model;
@@ -142,12 +152,7 @@ TEST(Hymenium, SmallStepsOfAgeMoveBladesALittle) {
 TEST(Hymenium, EdgesStayInsideTheOutlineAndBasesUnderTheCap) {
     for (const char* id : {"amanita_muscaria", "russula_vinosa", "coprinus_comatus"})
         for (const double age : {0.0, 0.1, 0.6}) {
-            MushroomSpec order = textured(order_of(id, age));
-            order.params.variation = 0.0;
-            order.params.deformation.bend_deg = 0.0;
-            order.params.deformation.lean_deg = 0.0;
-            order.params.deformation.imperfection = 0.0;
-            order.params.weathering.waves = 0.0;
+            const MushroomSpec order = upright(textured(order_of(id, age)));
             const Individual individual = resolve(order, atlas());
             const Outline& outline = individual.outline;
             double rim = 0.0, top = 0.0;
@@ -165,12 +170,7 @@ TEST(Hymenium, EdgesStayInsideTheOutlineAndBasesUnderTheCap) {
 }
 
 TEST(Hymenium, BladesEndAtUnlikeDistancesBeforeTheMargin) {
-    MushroomSpec order = textured(order_of("russula_vinosa"));
-    order.params.variation = 0.0;
-    order.params.deformation.bend_deg = 0.0;
-    order.params.deformation.lean_deg = 0.0;
-    order.params.deformation.imperfection = 0.0;
-    order.params.weathering.waves = 0.0;
+    const MushroomSpec order = upright(textured(order_of("russula_vinosa")));
     const Individual individual = resolve(order, atlas());
     const double rim = individual.outline.hymenium.at(1.0).r;
     double nearest = 0.0, farthest = rim;
