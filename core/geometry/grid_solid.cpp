@@ -18,6 +18,16 @@ TexturePoint point_of(const GridSolid& solid, double round, double up) {
                        from_v + up * (to_v - from_v));
 }
 
+/// Returns where a row is in the window of a solid, 0..1.
+double row_share(const GridSolid& solid, int row) {
+    const int last = solid.rows - 1;
+    if (solid.loops)
+        return std::min(std::min(row, last - row) / (0.5 * solid.rows - 1.0 + 1e-9), 1.0);
+    if (solid.crest > 0 && row > solid.crest)
+        return static_cast<double>(last - row) / (last - solid.crest);
+    return static_cast<double>(row) / (solid.crest > 0 ? solid.crest : last);
+}
+
 /// Appends the triangles of a solid's grid, whose vertices begin at `first`, and computes its
 /// normals: area-weighted over vertices that share a position.
 void append_grid_triangles(Mesh& mesh, GridSolid& solid, std::uint32_t first) {
@@ -73,19 +83,17 @@ void append_grid_vertices(Mesh& mesh, const GridSolid& solid, const glm::dvec3& 
             mesh.positions.emplace_back(p[at(i, j)]);
             mesh.normals.emplace_back(normal);
             if (!textured) continue;
-            const double along =
-                solid.loops ? std::min(i, solid.rows - 1 - i) / (0.5 * solid.rows - 1.0 + 1e-9)
-                            : static_cast<double>(i) / (solid.rows - 1);
             const TexturePoint uv =
-                point_of(solid, static_cast<double>(j) / solid.columns, std::min(along, 1.0));
+                point_of(solid, static_cast<double>(j) / solid.columns, row_share(solid, i));
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
             const int ahead = j < solid.columns ? j + 1 : 1,
                       behind = j > 0 ? j - 1 : solid.columns - 1;
             const int side = pointed && i == solid.rows - 1 ? i - 1 : i;
             const glm::dvec3 tangent = p[at(side, ahead)] - p[at(side, behind)];
             // Columns run counter-clockwise with the tip above, so image-up points to the base; the
-            // other side of a ring is mirrored.
-            const bool mirrored = solid.loops && i >= solid.rows / 2;
+            // other side of a ring, and of a crest, is mirrored.
+            const bool mirrored =
+                solid.loops ? i >= solid.rows / 2 : solid.crest > 0 && i > solid.crest;
             mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
                                        mirrored ? 1.0F : -1.0F);
         }

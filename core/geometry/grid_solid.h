@@ -49,10 +49,13 @@ struct GridSolid : SolidGrid {
     glm::dvec3 skirt = glm::dvec3(0.0);
     /// The piece of the strip that paints it: from and to along u and v, 0..1.
     std::array<double, 4> window = {0.0, 1.0, 0.0, 1.0};
+    /// The row that shows the far side of the window, beyond which it is mirrored back to its near
+    /// side at the tip; 0: the last row shows the far side. Not of a ring, which is always mirrored.
+    int crest = 0;
 };
 
 /// Appends a solid, painted by the strip of its part: round it along the columns, from its base to
-/// its tip (or to the middle row of a loop) along the rows. Normals are area-weighted.
+/// its tip (or to its crest, or to the middle row of a loop) along the rows. Normals are area-weighted.
 ///
 /// fallback  normal where none can be computed, as of a solid that is a point
 /// drawn     false appends the vertices alone

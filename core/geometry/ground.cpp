@@ -67,6 +67,10 @@ constexpr double least_lump = 0.25, lump_power = 1.8;
 constexpr double crumbs_per_lump = 2.0, least_crumb = 0.1, most_crumb = 0.34, farthest_crumb = 0.45,
                  crumbs_beyond = 0.45, crumb_stray = 0.5;
 
+/// Share of the band of soil, from its one edge to the other, that a lump or a crumb shows, so that
+/// its texels are about as long as wide; how often such shares begin anew along the strip.
+constexpr double pebble_across = 0.35, window_turns = 7.3;
+
 /// How a kind of litter is shaped and lies.
 struct PieceForm {
     std::array<double, 5> widths;    ///< half, along it, in shares of the largest
@@ -111,8 +115,8 @@ struct Resolution {
 constexpr std::array<Resolution, 4> resolutions = {
     {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, {8, 3, false}, {3, 5, false}, 1.0, 1.0},
      {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, {}, 0.15, 0.5},
-     {12, {3, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
-     {0, {3, 6, false}, {}, {}, {}, {}, 0.0, 0.0}}};
+     {12, {5, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
+     {0, {4, 6, false}, {}, {}, {}, {}, 0.0, 0.0}}};
 
 int built(int count, double share, const Detail& detail) {
     return static_cast<int>(std::ceil(detail.ground * share * count));
@@ -154,6 +158,17 @@ auto of_table(const Table& table, double place) {
 
 double row_place(int row, const SolidGrid& grid) {
     return static_cast<double>(row) / (grid.rows - 1);
+}
+
+/// Returns the row of the clod's grid that is at its edge.
+int edge_row(const SolidGrid& grid) { return (grid.rows - 1) / 2; }
+
+/// Returns where a row of the clod's grid is, 0..1 over its rows: one is at the edge, whatever their
+/// number, and at least one between the edge and the tip, so that all levels have one outline.
+double clod_place(int row, const SolidGrid& grid) {
+    const int steps = grid.rows - 1, above = edge_row(grid);
+    if (row <= above) return at_edge * row / above;
+    return at_edge + (1.0 - at_edge) * (row - above) / (steps - above);
 }
 
 /// Returns the horizontal direction away from the axis.
@@ -266,13 +281,21 @@ class GroundBuilder {
 
     /// Appends a solid of this grid, painted by a piece of a band of the ground's strip.
     ///
-    /// from   0..1, where the piece begins in what is left of the strip
-    /// share  of the strip's length
+    /// from    0..1, where the piece begins in what is left of the strip and of the band
+    /// share   of the strip's length
+    /// across  share of the band's width
+    /// crest   as that of a GridSolid
     void append_solid(const SolidGrid& grid, std::size_t band, double from, double share,
-                      std::vector<glm::dvec3>& corners, const glm::dvec3& normal) {
+                      std::vector<glm::dvec3>& corners, const glm::dvec3& normal,
+                      double across = 1.0, int crest = 0) {
         GridSolid solid{grid, Part::ground, {}, {}};
-        solid.window = {from * (1.0 - share), from * (1.0 - share) + share, ground_bands[band].from,
-                        ground_bands[band].to};
+        solid.crest = crest;
+        const auto& [low, high] = ground_bands[band];
+        // Pieces that begin near each other along the strip lie apart across it.
+        const double apart = window_turns * from - std::floor(window_turns * from);
+        const double least = low + apart * (1.0 - across) * (high - low);
+        solid.window = {from * (1.0 - share), from * (1.0 - share) + share, least,
+                        least + across * (high - low)};
         solid.corners = std::move(corners);
         append(mesh_, solid, normal, textured_, drawn_);
     }
@@ -291,7 +314,7 @@ class GroundBuilder {
             for (int j = 0; j < grid.columns; ++j) {
                 const bool is_tip = i + 1 == grid.rows;
                 const FootPoint at =
-                    clod_.at(row_place(i, grid), is_tip ? 0.0 : 2.0 * pi * j / grid.columns);
+                    clod_.at(clod_place(i, grid), is_tip ? 0.0 : 2.0 * pi * j / grid.columns);
                 const double height = at.place.y;
                 const double stray = (height > 0.0 ? std::min(grain, most_stray * height) : grain) *
                                      random.symmetric();
@@ -299,7 +322,9 @@ class GroundBuilder {
             }
             close_row(corners, grid);
         }
-        append_solid(grid, 0, 0.0, 1.0, corners, upwards);
+        // The strip is too narrow for the whole way down.
+        const int crest = (edge_row(grid) + grid.rows - 1) / 2;
+        append_solid(grid, 0, 0.0, 1.0, corners, upwards, 1.0, crest);
     }
 
     /// How a pebble lies: a unit direction on the ground, its length across that, in widths, and the
@@ -333,7 +358,7 @@ class GroundBuilder {
             }
             close_row(corners, grid);
         }
-        append_solid(grid, 0, window.from, window.share, corners, at.outwards);
+        append_solid(grid, 0, window.from, window.share, corners, at.outwards, pebble_across);
     }
 
     void add_lump(int number) {

@@ -226,6 +226,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         along = along + zone.shift;
     }
     texel.colour = ramp_colour(plan, unit(along));
+    if (plan.joined > 0.0F) texel.colour = mix(rgb(plan.joined_colour), texel.colour, own);
     Rgb tint{set(plan.tint.r) + side * set(plan.drift.r),
              set(plan.tint.g) + side * set(plan.drift.g),
              set(plan.tint.b) + side * set(plan.drift.b)};
@@ -265,6 +266,12 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         add_skin(plan.skin, grain, uneven, cover, texel);
     }
     if (plan.veins > 0.0F) add_cap_veins(plan, p, fields, texel);
+    if (plan.joined > 0.0F) {
+        texel.shade = mix(one, texel.shade, own);
+        texel.height = texel.height * own;
+        texel.roughness = mix(set(plan.joined_roughness), texel.roughness, own);
+        texel.occlusion = mix(one, texel.occlusion, own);
+    }
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)) * lightness);
     out.height = texel.height;

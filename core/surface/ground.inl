@@ -35,7 +35,7 @@ HWY_INLINE Texel ground_texel(const GroundPlan& plan, VF round, VF up, const VF*
                     set(plan.shown[2]);
     Texel out;
     // Soil: crumbs of humus, dark between them, paler grains of sand, and thin roots.
-    const VF sand = smooth(fine + grain * set(0.3F), 0.42F, 1.0F / 0.2F) * set(0.35F);
+    const VF sand = smooth(fine + grain * set(0.3F), 0.40F, 1.0F / 0.2F) * set(0.42F);
     const VF thread = noise2(round * set(17.0F), up * set(9.0F), plan.seed[1]);
     const VF root =
         smooth(one - hn::Abs(thread + grain * set(0.10F) + cloud * set(0.25F)) * set(9.0F), 0.35F,
@@ -43,10 +43,15 @@ HWY_INLINE Texel ground_texel(const GroundPlan& plan, VF round, VF up, const VF*
         smooth(cloud, 0.0F, 1.0F / 0.2F) * set(0.5F);
     const VF gap = smooth(zero - grain - fine * set(0.4F), 0.12F, 1.0F / 0.4F);
     const VF tone = set(1.30F) + cloud * set(0.45F) + grain * set(0.55F) + fine * set(0.55F);
-    const Rgb crumbs = mix(shaded(rgb(plan.soil), hn::Max(tone, set(0.25F)) *
-                                                      (one - gap * set(0.55F))),
-                           Rgb{set(0.34F), set(0.28F), set(0.20F)}, sand);
-    const Rgb soil = mix(crumbs, Rgb{set(0.30F), set(0.21F), set(0.12F)}, root);
+    // Humus is greyer than the clay between it, and each clod has its own share of both.
+    const VF light = set(0.3F * plan.soil.r + 0.6F * plan.soil.g + 0.1F * plan.soil.b);
+    const VF humus = unit(set(0.50F) + age * set(0.55F) + grain * set(0.30F) - fine * set(0.20F));
+    const Rgb ground =
+        mix(rgb(plan.soil), Rgb{light * set(1.02F), light * set(0.92F), light * set(0.80F)}, humus);
+    const Rgb crumbs = mix(
+        shaded(ground, hn::Max(tone - humus * set(0.25F), set(0.2F)) * (one - gap * set(0.62F))),
+        Rgb{set(0.36F), set(0.31F), set(0.24F)}, sand);
+    const Rgb soil = mix(crumbs, Rgb{set(0.30F), set(0.23F), set(0.15F)}, root);
     // Litter: fibres along it, and dark spots of decay.
     const VF old = smooth(age + cloud * set(0.12F), -0.25F, 1.0F / 0.5F);
     const VF rot = smooth(cloud + grain * set(0.4F), 0.38F, 1.0F / 0.35F) * set(0.6F);

@@ -167,6 +167,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     const SineCosine side = sine_cosine(2.0 * pi * hue.turn);
     plan.joined = params.metrics.hymenium_arc > quantised_length(0.0) ? 0.0F : 1.0F;
     plan.joined_tint = stem_tint(params);
+    plan.joined_colour = light_of(params.surface.stem.top);
+    plan.joined_roughness = single(params.surface.stem.roughness);
     plan.drift_x = single(side.cosine);
     plan.drift_y = single(side.sine);
     plan.drift = {single(0.14 * cap.colour_drift), 0.0F, single(-0.22 * cap.colour_drift)};
@@ -307,6 +309,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.band_colour = light_of(stem.band_colour);
     plan.net_colour = light_of(stem.net_colour);
     plan.roughness = single(stem.roughness);
+    plan.joined = params.metrics.hymenium_arc > quantised_length(0.0) ? 0.0F : 1.0F;
     const double stretch = std::clamp(1.6 * round / along, 0.05, 1.0);
     plan.stretch = single(stretch);
     for (std::size_t i = 0; i < 3; ++i)

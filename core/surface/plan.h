@@ -139,6 +139,8 @@ struct CapPlan {
     /// it takes the tint of the stem and loses what ends at the border of its chart.
     float joined = 0.0F;
     Light joined_tint = {1.0F, 1.0F, 1.0F};
+    Light joined_colour;  ///< of the top of the stem
+    float joined_roughness = 0.75F;
     float ramp_noise = 0.0F;
     float fibrils = 0.0F;
     int fibril_count = 8;
@@ -236,6 +238,7 @@ struct StemPlan {
     float roughness = 0.75F;
     SkinPlan skin;
     Light tint = {1.0F, 1.0F, 1.0F};  ///< the individual's own hue
+    float joined = 0.0F;              ///< 1 where it passes into the upper face without an edge
     unsigned fields = 0;
 };
 
