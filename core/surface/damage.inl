@@ -331,8 +331,12 @@ HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
         return;
     }
     if (spot.kind == DamageKind::bite) {
-        // Teeth of the slug scallop the edge.
-        const VF teeth = wave((across - inner) * set(4.5F)) * set(0.35F * spot.rim);
+        // A slug scallops the edge, here deep and wide, there hardly at all.
+        const VF place = across - inner;
+        const VF warp = noise2(place * set(2.1F), set(0.5F), spot.seed + 1U);
+        const VF bold = noise2(place * set(2.9F), set(3.5F), spot.seed + 2U);
+        const VF teeth = wave(place * set(2.6F) + warp * set(0.8F)) *
+                         unit(set(0.45F) + bold * set(0.9F)) * set(0.35F * spot.rim);
         const VF open = one - smooth(far + teeth, 1.0F + 0.6F * spot.rim, 2.2F / spot.rim);
         at.raise(damage_open, open * shown);
         at.raise(damage_sunk, open * set(0.35F * spot.height) * shown);

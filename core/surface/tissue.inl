@@ -76,7 +76,12 @@ HWY_INLINE Texel flesh_texel(const FleshPlan& plan, VF along, VF across, const V
         height = height + n * set(0.16F / f);
     }
     const VF shade = one + fibre * set(0.05F) + grain * set(0.07F) + cloud * set(0.04F);
-    out.colour = shaded(rgb(plan.colour), shade);
+    // It dries in clouds, first along both edges.
+    const VF edge = one - smooth(across, 0.02F, 9.0F) * (one - smooth(across, 0.80F, 7.0F));
+    const VF dry = unit(set(0.58F) + cloud * set(0.55F) + grain * set(0.22F) + edge * set(0.40F));
+    const Rgb fresh = rgb(plan.colour);
+    out.colour = shaded(
+        mix(fresh, {fresh.r * set(0.62F), fresh.g * set(0.46F), fresh.b * set(0.30F)}, dry), shade);
     out.height = height;
     out.roughness = set(plan.roughness) + grain * set(0.04F);
     out.occlusion = one + hn::Min(grain + fibre * set(0.6F), set(0.0F)) * set(0.3F) -
