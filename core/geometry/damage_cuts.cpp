@@ -104,7 +104,7 @@ MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
     }
     if (melts_) {
         melted_ = melted(amounts.deliquescence) * cap_length_;
-        phase_ = Random(individual.painted_seed, purposes::ragged).uniform(0.0, whole_turn);
+        phase_ = MixedRandom(damage_shares(individual), purposes::ragged).uniform(0.0, whole_turn);
     }
     place_columns(columns_of(notches, amounts, {limits.inside, limits.long_splits}), notches,
                   detail_of(level).columns);

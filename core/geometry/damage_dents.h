@@ -38,13 +38,18 @@ class Dents {
     [[nodiscard]] double stem(double sigma, double angle) const;
 
   private:
-    [[nodiscard]] double lumps(const SubCurve& curve, const std::vector<DamageSpot>& damage_spots,
+    /// What befell one species.
+    struct Share {
+        double weight;
+        std::vector<DamageSpot> cap_lumps, stem_lumps;
+        std::vector<Furrow> furrows;
+    };
+    [[nodiscard]] double lumps(const SubCurve& curve, std::vector<DamageSpot> Share::*spots,
                                double unit, bool stem, double sigma, double angle) const;
     [[nodiscard]] double furrow(double sigma, double angle, bool on_stem) const;
 
     const Outline& outline_;
-    std::vector<DamageSpot> cap_lumps_, stem_lumps_;
-    std::vector<Furrow> furrows_;
+    std::vector<Share> shares_;
     double bumps_, creases_, clubs_, radius_ = 0.0;
 };
 

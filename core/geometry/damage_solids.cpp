@@ -183,8 +183,9 @@ void DamageSolids::add_rolls() {
 void DamageSolids::add_drips() {
     if (!individual_.damage.melts || limits_.drips == 0) return;
     const double length = individual_.outline.cap.length();
+    const SeedShares shares = damage_shares(individual_);
     for (int i = 0; i < limits_.drips; ++i) {
-        Random random(individual_.painted_seed, purposes::drips, static_cast<std::uint32_t>(i));
+        MixedRandom random(shares, purposes::drips, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double size = random.uniform(0.5, 1.0);
         const double hang = random.uniform(1.6, 4.2);

@@ -201,36 +201,46 @@ class Weatherer {
         const bool furrowed = limits_.furrows && amounts_.creases > 0.0;
         const bool pitted = limits_.pits && amounts_.bites > 0.0;
         if (!lumps && !furrowed && !pitted) return;
+        SeedShares shares = damage_shares(individual_);
+        std::erase_if(shares, [](const SeedShare& share) { return share.weight <= 0.0; });
         for (const bool stem : {true, false}) {
             const FaceGrid& face = stem ? body_.stem : body_.cap;
             const CurveName part = stem ? CurveName::stem : CurveName::cap;
             heights_.assign(face.shares.size() * columns_, 0.0);
-            if (lumps) add_spots(face, part, DamageSpotKind::lump, amounts_.bumps);
-            if (pitted) add_spots(face, part, DamageSpotKind::pit, amounts_.bites);
-            if (furrowed && (stem || individual_.damage.clubs > 0.0)) add_furrows(face, stem);
+            for (const SeedShare& share : shares) {
+                if (lumps) add_spots(face, part, DamageSpotKind::lump, amounts_.bumps, share);
+                if (pitted) add_spots(face, part, DamageSpotKind::pit, amounts_.bites, share);
+            }
+            for (const SeedShare& share : shares)
+                if (furrowed && (stem || individual_.damage.clubs > 0.0))
+                    add_furrows(face, stem, share);
             raise(face, stem);
         }
     }
+
+    // Returns true for the radius of a ring that is a point, however it was rounded.
+    [[nodiscard]] static bool is_pole(double radius) { return radius < 1e-12; }
 
     // Returns how far a face may be displaced at a share: 0 at edges shared with other faces.
     [[nodiscard]] static double freedom(bool stem, double share) {
         return stem ? stem_freedom(share) : smooth_step(0.0, 0.08, share);
     }
 
-    void add_spots(const FaceGrid& face, CurveName part, DamageSpotKind kind, double amount) {
+    void add_spots(const FaceGrid& face, CurveName part, DamageSpotKind kind, double amount,
+                   const SeedShare& share) {
         const bool stem = part == CurveName::stem;
         const SubCurve& curve = individual_.outline.of(part);
         const double length = curve.length();
         if (length <= 0.0) return;
         const double girth = whole_turn * mean_radius(individual_.outline.stem);
-        for (const DamageSpot& spot : damage_spots(kind, part, individual_.painted_seed)) {
+        for (const DamageSpot& spot : damage_spots(kind, part, share.seed)) {
             const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
             const double unit = stem ? girth : length;
             const bool pit = kind == DamageSpotKind::pit;
             const double size = std::max(spot.radius * faded_in_size(scale), 1e-4) * unit;
-            double height =
-                pit ? -0.30 * size * pit_depth(scale) : lump_height(spot) * scale * unit;
+            double height = share.weight * (pit ? -0.30 * size * pit_depth(scale)
+                                                : lump_height(spot) * scale * unit);
             if (pit) height *= carried_pit(size, length, spot, curve, stem);
             const double along = size * spot.elongation;
             const double r = std::max(curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r, 1e-4);
@@ -241,7 +251,7 @@ class Weatherer {
                 if (a < -1.0 || a > 1.0) continue;
                 const double ring = curve.at(face.shares[i]).r;
                 // Distance on the circle of the mean radius, so that it also holds across the pole.
-                const double mean = ring > 0.0 ? std::sqrt(r * ring) / ring : 0.0;
+                const double mean = is_pole(ring) ? 0.0 : std::sqrt(r * ring) / ring;
                 for (std::size_t j = 0; j < columns_; ++j) {
                     const double dx = mean * ring * turns_[j].cosine - x,
                                  dz = mean * ring * turns_[j].sine - z;
@@ -267,10 +277,10 @@ class Weatherer {
         return smooth_step(2.0, 6.0, size / std::max({ring, round, 1e-6}));
     }
 
-    void add_furrows(const FaceGrid& face, bool stem) {
+    void add_furrows(const FaceGrid& face, bool stem, const SeedShare& species) {
         const double radius = mean_radius(individual_.outline.stem);
-        for (const Furrow& furrow : furrows(individual_.painted_seed)) {
-            const double scale = grown(furrow.onset, amounts_.creases);
+        for (const Furrow& furrow : furrows(species.seed)) {
+            const double scale = species.weight * grown(furrow.onset, amounts_.creases);
             if (scale <= 0.0) continue;
             for (std::size_t i = 0; i < face.shares.size(); ++i) {
                 const double share = face.shares[i];
@@ -292,6 +302,18 @@ class Weatherer {
         }
     }
 
+    /// Returns the direction in which a vertex is displaced: that of the normals of its ring and the
+    /// rings beside it. A normal alone turns at once where a ridge of relief passes its vertex.
+    [[nodiscard]] glm::dvec3 direction(const FaceGrid& face, std::size_t ring,
+                                       std::size_t column) const {
+        const auto normal = [&](std::size_t i) {
+            return glm::dvec3(mesh_.normals[at(face, i, column)]);
+        };
+        const glm::dvec3 own = normal(ring);
+        if (ring == 0 || ring + 1 == face.shares.size()) return own;
+        return unit_or(normal(ring - 1) + own + normal(ring + 1), own);
+    }
+
     void raise(const FaceGrid& face, bool stem) {
         std::vector<double> weights(heights_.size(), 0.0);
         const double full = 0.004 * greatest_radius(individual_.outline.cap);
@@ -300,14 +322,14 @@ class Weatherer {
         bool any = false;
         for (std::size_t i = 0; i < rings; ++i) {
             const double free = freedom(stem, face.shares[i]);
-            const bool pole = curve.at(face.shares[i]).r <= 0.0;
+            const bool pole = is_pole(curve.at(face.shares[i]).r);
             for (std::size_t j = 0; j < columns_; ++j) {
                 double& height = heights_[i * columns_ + j];
-                height *= free;
+                // All columns of a pole are one point.
+                height = pole && j > 0 ? heights_[i * columns_] : height * free;
                 if (height == 0.0) continue;
                 any = true;
-                const std::size_t vertex = at(face, i, pole ? 0 : j);
-                const glm::dvec3 by = height * glm::dvec3(mesh_.normals[vertex]);
+                const glm::dvec3 by = height * direction(face, i, pole ? 0 : j);
                 mesh_.positions[at(face, i, j)] = glm::vec3(place(at(face, i, j)) + by);
             }
         }
@@ -315,7 +337,7 @@ class Weatherer {
         copy_seam(face);
         // The weight of a new normal follows the largest displacement among the neighbours.
         for (std::size_t i = 0; i < rings; ++i) {
-            if (curve.at(face.shares[i]).r <= 0.0) continue;
+            if (is_pole(curve.at(face.shares[i]).r)) continue;
             for (std::size_t j = 0; j < columns_; ++j) {
                 double most = 0.0;
                 for (const std::size_t k : {i == 0 ? i : i - 1, i, std::min(i + 1, rings - 1)})

@@ -9,6 +9,8 @@
 #include "core/geometry/branches.h"
 #include "core/grow/level_choice.h"
 #include "core/grow/mushroom.h"
+#include "core/individual/damage.h"
+#include "core/math/random.h"
 #include "core/mesh/detail.h"
 #include "core/params/canonical.h"
 #include "core/surface/image_blend.h"
@@ -236,6 +238,8 @@ void set_painting(const MushroomParams& params, const SpeciesShare& part, const 
     double& roughness = painting.surface.cap.roughness;
     roughness += model.material.velvet * (0.95 - roughness);
     painting.weathering = painted_of(model.weathering);
+    if (painting.weathering == PaintedWeathering<Plain>{}) return;
+    painting.damage_seed = damage_seed(params.seed, stream_of(part.id));
 }
 
 // Returns the sum of equal paintings, in the order of their keys.

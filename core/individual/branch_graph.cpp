@@ -21,12 +21,13 @@ constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
 // Factor on the length of the segment between the two forks of a whorl.
 constexpr double whorl_rest = 0.06;
 
-// Random draws of a node, equal for all species because they depend on its path from the root only.
+// Random draws of a node. They depend on its path from the root only and are equal for all species,
+// but for what slugs eat.
 struct NodeDraws {
     double length, angle, azimuth, x, y, z, side, onset, depth;
 };
 
-NodeDraws draws_of(std::uint32_t seed, std::uint32_t path) {
+NodeDraws draws_of(std::uint32_t seed, const SeedShares& damage, std::uint32_t path) {
     Random random(seed, purposes::branch_segments, path);
     NodeDraws d{};
     d.length = random.symmetric();
@@ -36,7 +37,7 @@ NodeDraws draws_of(std::uint32_t seed, std::uint32_t path) {
     d.y = random.symmetric();
     d.z = random.symmetric();
     d.side = random.symmetric() < 0.0 ? -1.0 : 1.0;
-    Random eaten(seed, purposes::eaten_tips, path);
+    MixedRandom eaten(damage, purposes::eaten_tips, path);
     d.onset = eaten.uniform();
     d.depth = eaten.uniform(0.35, 0.95);
     return d;
@@ -162,7 +163,10 @@ class GraphBuilder {
   public:
     GraphBuilder(const std::vector<BranchGraphShare>& shares, const BranchGraphProportions& own,
                  std::uint32_t seed)
-        : shares_(shares), own_(own), seed_(seed) {}
+        : shares_(shares), own_(own), seed_(seed) {
+        for (const BranchGraphShare& share : shares)
+            damage_.push_back({damage_seed(seed, share.stream), share.weight});
+    }
 
     BranchGraph build(double bites) {
         blend_styles();
@@ -203,7 +207,7 @@ class GraphBuilder {
         node.parent = parent;
         graph_.nodes.push_back(node);
         paths_.push_back(path);
-        draws_.push_back(draws_of(seed_, path));
+        draws_.push_back(draws_of(seed_, damage_, path));
         return static_cast<std::uint32_t>(graph_.nodes.size() - 1);
     }
 
@@ -429,6 +433,7 @@ class GraphBuilder {
     const std::vector<BranchGraphShare>& shares_;
     BranchGraphProportions own_;
     std::uint32_t seed_;
+    SeedShares damage_;
     BlendedStyle style_means_;
     BranchGraph graph_;
     std::vector<std::uint32_t> paths_;

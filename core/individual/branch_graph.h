@@ -14,7 +14,8 @@ namespace sporeprint {
 /// One species of a branch graph.
 struct BranchGraphShare {
     const Branched* shape = nullptr;
-    double weight = 1.0;  ///< weights sum to 1
+    double weight = 1.0;       ///< weights sum to 1
+    std::uint32_t stream = 0;  ///< of the species in random streams
 };
 
 /// Factors by which an individual deviates from its species.

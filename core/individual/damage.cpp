@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/individual/individual.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
@@ -137,6 +138,17 @@ std::vector<CrackPoint> grow_end(CrackPoint at, Heading heading, std::uint32_t o
 }
 
 }  // namespace
+
+std::uint32_t damage_seed(std::uint32_t individual, std::uint32_t stream) {
+    return Random(individual, purposes::species_damage, stream).bits();
+}
+
+SeedShares damage_shares(const Individual& individual) {
+    SeedShares shares;
+    for (const SpeciesShare& part : individual.parts)
+        shares.push_back({damage_seed(individual.painted_seed, stream_of(part.id)), part.weight});
+    return shares;
+}
 
 double turn_between(double from, double to) {
     double turn = to - from;

@@ -1,5 +1,5 @@
-// The places of damage by weather, slugs and handling: drawn once per individual on the young
-// surface, used by geometry and painting. Amounts only open, deepen and lengthen what is drawn
+// The places of damage by weather, slugs and handling: drawn once per individual, or per species of
+// one, on the young surface; used by geometry and painting. Amounts only open, deepen and lengthen what is drawn
 // here, so that no slider and no age moves it.
 #pragma once
 
@@ -9,10 +9,24 @@
 #include <span>
 #include <vector>
 
+#include "core/individual/mixed_random.h"
 #include "core/math/elementary.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint {
+
+struct Individual;
+
+/// Returns the seed of the damage of a species: what befalls it lies elsewhere on another species of
+/// the same individual seed. What cuts the mesh or adds solids to it (bites, splits, peeled strips,
+/// drops) takes the seed of the individual instead, since a mesh has room for one set of them.
+///
+/// stream  of the species: stream_of() its id
+[[nodiscard]] std::uint32_t damage_seed(std::uint32_t individual, std::uint32_t stream);
+
+/// Returns the seeds and weights of the species of an individual. Dents of all of them are in its
+/// mesh, each as deep as its species' weight, as its images show all of them.
+[[nodiscard]] SeedShares damage_shares(const Individual& individual);
 
 /// A kind of damage with round or oval spots; each has random streams of its own.
 enum class DamageSpotKind : std::uint32_t { pit, bruise, dew, lump };

@@ -362,7 +362,8 @@ void resolve_branched(Individual& individual, const MushroomSpec& spec,
     std::vector<BranchGraphShare> shares;
     shares.reserve(sources.size());
     for (const Source& source : sources)
-        shares.push_back({&std::get<Branched>(source.now.shape), source.weight});
+        shares.push_back(
+            {&std::get<Branched>(source.now.shape), source.weight, stream_of(source.id)});
     const BranchGraphProportions own{requested.size * factor(draws.size, spread.size, variation),
                                      factor(draws.stem_length, spread.stem_length, variation),
                                      factor(draws.stem_width, spread.stem_width, variation),
@@ -550,8 +551,8 @@ std::vector<BranchGraph> species_branch_graphs(const MushroomSpec& spec, const A
         std::vector<BranchGraphShare> shares;
         shares.reserve(sources.size());
         for (const Source& source : sources)
-            shares.push_back(
-                {&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0});
+            shares.push_back({&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0,
+                              stream_of(source.id)});
         branch_graphs.push_back(branch_graph_of(shares, {}, 0.0, spec.params.seed));
     }
     return branch_graphs;

@@ -82,6 +82,7 @@ enum Purpose : std::uint32_t {
     bracket_base = 140,    ///< how unevenly a bracket meets its wood
     ground = 141,          ///< soil, litter and strands at a foot
     ground_paint = 144,
+    species_damage = 145,  ///< seed of the damage of one species of an individual
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -164,6 +165,7 @@ enum Purpose : std::uint32_t {
         case bracket_base:
         case spines:
         case ground_paint:
+        case species_damage:
             return 1;
     }
     return 0;

@@ -127,7 +127,8 @@ class DamagePlanner {
         const CurveName curve = part == Part::cap        ? CurveName::cap
                                 : part == Part::hymenium ? CurveName::hymenium
                                                          : CurveName::stem;
-        for (const DamageSpot& spot : damage_spots(spotted, curve, params_.seed)) {
+        const std::uint32_t seed = kind == DamageKind::drop ? params_.seed : params_.damage_seed;
+        for (const DamageSpot& spot : damage_spots(spotted, curve, seed)) {
             const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
             const ChartSpace::Place at = chart.place(spot.sigma, spot.theta);
@@ -147,10 +148,10 @@ class DamagePlanner {
             painted.reach = 1.5F * single(std::max(length, width));
             painted.rows = single(std::sqrt(static_cast<double>(oval_window(kind))) *
                                   diagonal(length * at.along_y, width * at.along_x));
-            painted.seed =
-                Random(params_.seed, purposes::painted_damage + static_cast<std::uint32_t>(part),
-                       static_cast<std::uint32_t>(kind) * 1000U + spot.id)
-                    .bits();
+            painted.seed = Random(params_.damage_seed,
+                                  purposes::painted_damage + static_cast<std::uint32_t>(part),
+                                  static_cast<std::uint32_t>(kind) * 1000U + spot.id)
+                               .bits();
             const double shown = std::min(1.0, radius / chart.texel());
             switch (kind) {
                 case DamageKind::pit:
@@ -229,7 +230,8 @@ class DamagePlanner {
         const double strain = params_.metrics.radial_strain / 16.0;
         const double radial =
             std::clamp(own < 0.0 ? strain * (1.0 + own) : strain + (1.0 - strain) * own, 0.0, 1.0);
-        const std::uint32_t seed = Random(params_.seed, purposes::painted_damage + 8U).bits();
+        const std::uint32_t seed =
+            Random(params_.damage_seed, purposes::painted_damage + 8U).bits();
         const double net_share = 1.0 - smooth_step(0.55, 1.0, radial);
         const auto pieces = [&](const Crack& crack, auto width_at) {
             for (std::size_t i = 0; i + 1 < crack.points.size(); ++i) {
@@ -239,7 +241,7 @@ class DamagePlanner {
             }
         };
         if (net_share > 0.0)
-            for (const Crack& crack : crack_net(params_.seed)) {
+            for (const Crack& crack : crack_net(params_.damage_seed)) {
                 const double scale = grown(crack.onset, amount);
                 if (scale <= 0.0) continue;
                 pieces(crack, [&](const CrackPoint& p) {
@@ -255,7 +257,7 @@ class DamagePlanner {
             }
         const double radial_share = smooth_step(0.0, 0.7, radial);
         if (radial_share > 0.0)
-            for (const Crack& crack : radial_cracks(params_.seed)) {
+            for (const Crack& crack : radial_cracks(params_.damage_seed)) {
                 const double scale = grown(crack.onset, amount);
                 if (scale <= 0.0) continue;
                 pieces(crack, [&](const CrackPoint& p) {
@@ -269,8 +271,9 @@ class DamagePlanner {
     void add_furrows(double amount) {
         constexpr int steps = 28;
         const double aspect = plan_.stem.aspect;
-        const std::uint32_t seed = Random(params_.seed, purposes::painted_damage + 9U).bits();
-        for (const Furrow& furrow : furrows(params_.seed)) {
+        const std::uint32_t seed =
+            Random(params_.damage_seed, purposes::painted_damage + 9U).bits();
+        for (const Furrow& furrow : furrows(params_.damage_seed)) {
             const double scale = grown(furrow.onset, amount);
             if (scale <= 0.0) continue;
             const auto place = [&](double sigma) {
@@ -361,7 +364,7 @@ class DamagePlanner {
         painted.middle_y = single(middle * turn.sine);
         painted.reach = painted.rows =
             single(std::max(1.35 * half_width + 2.0 * rim, 0.5 * out + 0.08) + 0.06);
-        painted.seed = Random(params_.seed, purposes::painted_damage + 7U, id).bits();
+        painted.seed = Random(params_.damage_seed, purposes::painted_damage + 7U, id).bits();
         add(part, painted);
     }
 
@@ -413,7 +416,7 @@ void plan_damage(const PaintParams& params, PaintPlan& plan) {
     damage.dusty = light_of(look.dust);
     damage.dust = single(params.weathering.dust);
     damage.melted = single(params.weathering.deliquescence);
-    damage.seed = Random(params.seed, purposes::damage_grain).bits();
+    damage.seed = Random(params.damage_seed, purposes::damage_grain).bits();
     const double gone = melted(params.weathering.deliquescence);
     const double arc = length_of_step(params.metrics.cap_arc),
                  lower = std::max(length_of_step(params.metrics.hymenium_arc), 1e-5);

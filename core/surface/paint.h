@@ -55,6 +55,7 @@ struct PaintParams {
     PaintedOrnaments ornaments;
     double slime = 0.0;
     PaintedWeathering<Plain> weathering;
+    std::uint32_t damage_seed = 1;
 
     static constexpr void fields(auto visit) {
         using P = PaintParams;
@@ -90,6 +91,10 @@ struct PaintParams {
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "How much of them is left."});
         visit(&P::slime, Info{.name = "slime", .min = 0, .max = 1, .doc = "Slime on the cap."});
         visit(&P::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
+        visit(&P::damage_seed, Info{.name = "damage_seed",
+                                    .min = 0,
+                                    .max = 4294967295.0,
+                                    .doc = "Where they did it: the individual and its species."});
     }
     bool operator==(const PaintParams&) const = default;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "core/math/elementary.h"
 #include "core/silhouette/morph_set.h"
@@ -47,6 +48,32 @@ TEST(Damage, DependOnTheSeed) {
         EXPECT_NE(first[i].theta, other[i].theta);
     }
     EXPECT_NE(first[0].theta, pits[0].theta) << "kinds do not share draws";
+}
+
+TEST(Damage, LiesElsewhereOnAnotherSpeciesOfTheSameSeed) {
+    const SeedShares one = damage_shares(resolve(order_of("boletus_edulis", 0.6, 7), atlas())),
+                     again = damage_shares(resolve(order_of("boletus_edulis", 0.9, 7), atlas())),
+                     other = damage_shares(resolve(order_of("russula_emetica", 0.6, 7), atlas()));
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_EQ(one.front().weight, 1.0);
+    EXPECT_EQ(one.front().seed, again.front().seed) << "no age moves it";
+    EXPECT_NE(one.front().seed, other.front().seed);
+    const auto here = damage_spots(DamageSpotKind::pit, CurveName::stem, one.front().seed),
+               there = damage_spots(DamageSpotKind::pit, CurveName::stem, other.front().seed);
+    EXPECT_NE(here.front().theta, there.front().theta);
+}
+
+TEST(Damage, OfAMixIsThatOfEachOfItsSpeciesAlone) {
+    MushroomSpec spec = order_of("boletus_edulis", 0.6, 7);
+    spec.mix = {{"boletus_edulis", 300}, {"russula_emetica", 700}};
+    const SeedShares mixed = damage_shares(resolve(spec, atlas()));
+    ASSERT_EQ(mixed.size(), 2U);
+    EXPECT_NEAR(mixed[0].weight, 0.3, 0.01);
+    EXPECT_NEAR(mixed[0].weight + mixed[1].weight, 1.0, 1e-12);
+    for (const SeedShare& share : mixed) {
+        const std::string id = &share == mixed.data() ? "boletus_edulis" : "russula_emetica";
+        EXPECT_EQ(share.seed, damage_shares(resolve(order_of(id, 0.6, 7), atlas())).front().seed);
+    }
 }
 
 TEST(Damage, GrowContinuouslyFromZeroToFullSize) {
