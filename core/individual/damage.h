@@ -19,7 +19,7 @@ struct Individual;
 
 /// Returns the seed of the damage of a species: what befalls it lies elsewhere on another species of
 /// the same individual seed. What cuts the mesh or adds solids to it (bites, splits, peeled strips,
-/// drops) takes the seed of the individual instead, since a mesh has room for one set of them.
+/// drops) takes the seed of the individual instead, since a mesh has vertices for one set of them.
 ///
 /// stream  of the species: stream_of() its id
 [[nodiscard]] std::uint32_t damage_seed(std::uint32_t individual, std::uint32_t stream);
