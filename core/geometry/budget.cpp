@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/geometry/collar.h"
 #include "core/geometry/hymenium.h"
 #include "core/geometry/ornaments.h"
 #include "core/geometry/weathering.h"
@@ -100,7 +101,8 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
             coarsen(budget.cells);
         }
     }
-    const MeshCount body = body_count(individual, level, solids);
+    MeshCount body = body_count(individual, level, solids);
+    body += collar_count(individual, level);
     const auto total_of = [&](const OrnamentDetail& ornaments) {
         MeshCount count = body;
         count += ornament_count(individual, ornaments);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/geometry/budget.h"
+#include "core/geometry/collar.h"
 #include "core/geometry/curl.h"
 #include "core/geometry/damage_dents.h"
 #include "core/geometry/hymenium.h"
@@ -263,6 +264,8 @@ Mesh swept_mesh(const Individual& individual, DetailLevel level, const SweepOpti
     add_ornaments(mesh, individual, context);
     if (budget.solids) add_hymenium(mesh, individual, lower, context, budget);
     BracketBase(individual).apply(mesh);
+    add_collar(mesh, body, budget.solids ? &lower : nullptr, cuts.turns(), individual, level,
+               options.textured);
     wrap_round_trunk(mesh, individual.bending_radius());
     return mesh;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/collar.h"
 #include "core/geometry/wrap.h"
 #include "core/grow/names.h"
 #include "core/individual/proportion.h"
@@ -14,7 +15,7 @@ namespace {
 
 /// How far the wood goes on above and below a bracket, and how far behind its bark it is split, in
 /// radii of the wood. A bracket reaches no farther round it.
-constexpr double beyond_bracket = 0.5, beyond_growing = 1.0, split_behind = 0.75;
+constexpr double beyond_bracket = 0.4, beyond_growing = 1.0, split_behind = 0.75;
 
 }  // namespace
 
@@ -25,7 +26,9 @@ std::optional<WoodPiece> wood_behind(const Individual& individual) {
     Extent extent{individual.stem_base, individual.stem_base};
     for (const SubCurve* curve : {&outline.stem, &outline.hymenium, &outline.cap})
         extent.include(*curve);
-    const auto [low, high] = BracketBase(individual).range(extent.low, extent.high);
+    auto [low, high] = BracketBase(individual).range(extent.low, extent.high);
+    low -= collar_size(individual);
+    high += collar_size(individual);
     std::uint32_t names = 0;
     for (const SpeciesShare& part : individual.parts) names ^= stream_of(part.id);
     // The bracket of a clip grows taller than it is at the requested age.
@@ -36,7 +39,10 @@ std::optional<WoodPiece> wood_behind(const Individual& individual) {
                      .top = high + beyond,
                      .seed = Random(individual.effective.seed, purposes::wood, names).bits(),
                      .split = split_behind * individual.trunk_radius,
-                     .kind = *individual.effective.substrate};
+                     .kind = *individual.effective.substrate,
+                     .contact_bottom = low,
+                     .contact_top = high,
+                     .contact_half = extent.radius * individual.azimuth.width};
 }
 
 int wood_lod(DetailLevel level) { return std::min(level.nearest(), last_lod); }

@@ -452,7 +452,9 @@ void resolve_substrate(Individual& individual, const std::vector<Source>& source
             extent.include(*curve);
         const double grown =
             individual.effective.animation == Animation::growth ? size_left(sources) : 1.0;
-        individual.trunk_radius = std::max(trunk_by_bracket * grown * extent.radius, least_trunk);
+        individual.trunk_radius = std::max(
+            trunk_by_bracket * std::max(individual.azimuth.width, 1.0) * grown * extent.radius,
+            least_trunk);
         return;
     }
     if (substrate.value_or(Substrate::none) != Substrate::none)

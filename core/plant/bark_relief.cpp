@@ -45,11 +45,11 @@ BarkForm relief_of(Substrate kind) {
                     .cross = 0.25,
                     .cross_by = 2.0};
         case Substrate::spruce:
-            return {.depth = 0.011,
-                    .ridges = 15,
+            return {.depth = 0.008,
+                    .ridges = 17,
                     .stretch = 1.5,
-                    .furrow = 0.22,
-                    .cross = 0.8,
+                    .furrow = 0.13,
+                    .cross = 0.55,
                     .cross_by = 0.9};
     }
     throw InvalidInput("/substrate", "no wood has no images");

@@ -24,13 +24,13 @@ namespace sporeprint {
 
 namespace {
 
-/// Of a level of detail: columns of the bark of a whole piece, of a split one, and rows along one
-/// image of bark, an even number.
+/// Of a level of detail: columns of the bark of a whole piece, and of a split one, and rows of both
+/// along one image of bark.
 struct WoodDetail {
-    std::uint32_t sides, split_columns, rows_of_image;
+    std::uint32_t sides, split_columns, rows, split_rows;
 };
 constexpr std::array<WoodDetail, 4> details = {
-    {{112, 84, 56}, {44, 28, 18}, {16, 8, 4}, {12, 6, 2}}};
+    {{88, 84, 36, 56}, {36, 28, 12, 18}, {16, 8, 3, 4}, {12, 6, 2, 2}}};
 
 /// Rings of an end by level of detail, as shares of the way from the rim to its middle or to the
 /// split face: close together on both sides of the inner side of the bark.
@@ -44,7 +44,7 @@ constexpr std::array<double, 2> no_rings = {0.0, 1.0};
 constexpr std::uint32_t face_columns = 7;
 
 /// The most rows of a piece; one that is longer has longer rows.
-constexpr std::uint32_t most_rows = 160;
+constexpr std::uint32_t most_rows = 120;
 
 /// The share of what varies about the bark that is waves round the piece, and knots.
 constexpr double of_waves = 0.4, of_knots = 0.22;
@@ -54,6 +54,9 @@ constexpr double inner_bark = 0.955;
 
 /// The height over which bark follows the unevenness of an end, in units of that.
 constexpr double follows_end = 0.7;
+
+/// How much less uneven bark is where something grows out, and within how many radii it becomes so.
+constexpr double contact_evenness = 0.8, contact_fade = 0.3;
 
 /// How far the edges of a split face wander, radians.
 constexpr double edge_wander = 0.1;
@@ -180,8 +183,11 @@ class WoodBuilder {
           lower(piece, false, lod == 0),
           image_width(pi * piece.radius),
           image_length(wood_girths * 2.0 * image_width),
-          row_length(image_length / detail.rows_of_image),
+          row_length(image_length / rows_of_image()),
           has_texture(textured) {
+        // An image ends at a row, whatever their length.
+        for (std::uint32_t of_image = rows_of_image(); of_image > 1 && rows() > most_rows;)
+            row_length = image_length / --of_image;
         while (rows() > most_rows) row_length *= 2.0;
         Random random(piece.seed, purposes::wood, 3);
         const std::uint32_t bits = random.bits();
@@ -190,6 +196,10 @@ class WoodBuilder {
     }
 
   protected:
+    [[nodiscard]] std::uint32_t rows_of_image() const {
+        return shape.split > 0.0 ? detail.split_rows : detail.rows;
+    }
+
     /// Number of rows of quads along the piece.
     [[nodiscard]] std::uint32_t rows() const {
         return std::max(1U, static_cast<std::uint32_t>(
@@ -242,6 +252,16 @@ class WoodBuilder {
         return {angle, height, mirrors_across ? 1.0 - u : u, bumps.at(angle, height).length};
     }
 
+    /// Returns the share of its unevenness that bark has at a place.
+    [[nodiscard]] double unevenness_at(double angle, double height) const {
+        if (shape.contact_half <= 0.0) return 1.0;
+        const double fade = contact_fade * shape.radius;
+        const double aside = std::abs(angle) * shape.radius - shape.contact_half;
+        const double over = std::max(height - shape.contact_top, shape.contact_bottom - height);
+        return 1.0 - contact_evenness * (1.0 - smooth_step(0.0, fade, aside)) *
+                         (1.0 - smooth_step(0.0, fade, over));
+    }
+
     /// Lets the relief of the bark stand out of it. Coarse meshes have its mean.
     void add_relief(std::vector<BarkPoint>& points) const {
         const double height = image_width * bark_depth(shape.kind);
@@ -252,12 +272,19 @@ class WoodBuilder {
         }
         if (level > 1) {
             for (BarkPoint& point : points) point.distance += 0.6 * height;
-            return;
+            return even_contact(points);
         }
         const double share = level == 0 ? 1.0 : 0.7;
         const std::vector<float> rise = bark_rise(shape.kind, BarkNoise(shape.kind, across, along));
         for (std::size_t i = 0; i < points.size(); ++i)
             points[i].distance += height * (0.6 + share * (static_cast<double>(rise[i]) - 0.6));
+        even_contact(points);
+    }
+
+    void even_contact(std::vector<BarkPoint>& points) const {
+        for (BarkPoint& point : points)
+            point.distance = shape.radius + unevenness_at(point.angle, point.height) *
+                                                (point.distance - shape.radius);
     }
 
     [[nodiscard]] glm::dvec3 place(const BarkPoint& point) const {

@@ -18,6 +18,9 @@ struct WoodPiece {
     /// whole.
     double split = 0.0;
     Substrate kind = Substrate::beech;  ///< whose bark it has
+    /// Heights between which something grows out in front, so far to each side, metres: bark is
+    /// nearly even there, so that it hides nothing of that. None without a width.
+    double contact_bottom = 0.0, contact_top = 0.0, contact_half = 0.0;
 };
 
 /// The greatest distance of the bark from the axis, in radii.

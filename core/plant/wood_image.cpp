@@ -200,7 +200,7 @@ void BarkPainter::paint_row(std::size_t y) {
         double height = depth_ * high, occlusion = 1.0 - 0.6 * (1.0 - high) * (1.0 - high);
         double roughness = 0.86 + 0.08 * f;
         // Fine scales and grain, more of them where bark is furrowed.
-        const double coarse = style_.paper > 0.0 ? 0.3 : 1.0;
+        const double coarse = style_.paper > 0.0 ? 0.3 : style_.wrinkles > 0.0 ? 1.0 : 1.5;
         colour *= 1.0 + coarse * (0.13 * g + 0.1 * f) + 0.1 * of(ragged);
         height += coarse * (0.0016 * g + 0.0006 * f);
         if (style_.wrinkles > 0.0) {

@@ -452,6 +452,9 @@ constexpr double footprint_size = 1.15;
 /// Opacity of footprints per amount of veil, so that they appear with the first of it.
 constexpr double footprint_onset = 12.0;
 
+/// How far tufts of hairs turn to either side, radians.
+constexpr double tuft_turn = 0.7;
+
 /// Returns a piece at its place, as long and as wide as `radius` says.
 PatchPlan placed_patch(const Patch& patch, const PatchStyle& style, double radius,
                        const PaintPlan& plan) {
@@ -520,6 +523,14 @@ void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t
                 sine_cosine(patch.spin + (static_cast<double>(side) / 6.0) * 2.0 * pi + angle);
             one.side_x[side] = single(normal.cosine / off);
             one.side_y[side] = single(normal.sine / off);
+        }
+        if (kind == 1 && style.fray > 0.0) {
+            // Tufts lie this way and that, so that their hairs do not all point at the apex.
+            const SineCosine turn = sine_cosine(stream.uniform(-1.0, 1.0) * tuft_turn * style.fray);
+            const auto along_x = static_cast<double>(one.along_x),
+                       along_y = static_cast<double>(one.along_y);
+            one.along_x = single(turn.cosine * along_x - turn.sine * along_y);
+            one.along_y = single(turn.sine * along_x + turn.cosine * along_y);
         }
         plan.patches.push_back(one);
     }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "core/plant/tree.h"
 #include "tests/support/atlas.h"
@@ -51,6 +53,38 @@ TEST(BarkImage, NormalsAreUnitVectorsAndFlatWhereBarkIsSmooth) {
     const double furrowed = mean_lean();
     style.furrows = 0.0;
     EXPECT_LT(mean_lean(), 0.5 * furrowed);
+}
+
+TEST(BarkImage, HasNoPatternThatComesAgain) {
+    // The greatest correlation of the brightness of bark with itself, shifted by more than one of
+    // its features. Rows wrap, columns do not.
+    for (const TreePreset& preset : tree_presets()) {
+        constexpr int size = 128, least = size / 6;
+        const RawImages images = bark_images(preset.bark, 1, size);
+        std::vector<double> bright(static_cast<std::size_t>(size) * size);
+        double mean = 0.0, square = 0.0;
+        for (std::size_t i = 0; i < bright.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) bright[i] += images.rgb[0][3 * i + k];
+            mean += bright[i] / static_cast<double>(bright.size());
+        }
+        for (double& value : bright) {
+            value -= mean;
+            square += value * value / static_cast<double>(bright.size());
+        }
+        double most = 0.0;
+        for (int down = 0; down <= size / 2; ++down)
+            for (int aside = 0; aside < size; ++aside) {
+                if (down < least && std::min(aside, size - aside) < least) continue;
+                double sum = 0.0;
+                for (int y = 0; y + down < size; ++y)
+                    for (int x = 0; x < size; ++x)
+                        sum += bright[static_cast<std::size_t>(y * size + x)] *
+                               bright[static_cast<std::size_t>((y + down) * size +
+                                                               (x + aside) % size)];
+                most = std::max(most, sum / (static_cast<double>(size - down) * size * square));
+            }
+        EXPECT_LT(most, 0.3) << preset.id.view();
+    }
 }
 
 TEST(BarkImage, OfPresetsDifferAndRepeat) {
