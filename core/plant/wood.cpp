@@ -30,13 +30,13 @@ struct WoodDetail {
     std::uint32_t sides, split_columns, rows, split_rows;
 };
 constexpr std::array<WoodDetail, 4> details = {
-    {{88, 84, 36, 56}, {36, 28, 12, 18}, {16, 8, 3, 4}, {12, 6, 2, 2}}};
+    {{88, 84, 36, 56}, {28, 18, 8, 10}, {16, 8, 3, 4}, {12, 6, 2, 2}}};
 
 /// Rings of an end by level of detail, as shares of the way from the rim to its middle or to the
 /// split face: close together on both sides of the inner side of the bark.
 constexpr std::array<double, 11> fine_rings = {0.0,  0.035, 0.055, 0.12, 0.2, 0.3,
                                                0.42, 0.55,  0.7,   0.85, 1.0};
-constexpr std::array<double, 6> rings_of_1 = {0.0, 0.05, 0.14, 0.36, 0.66, 1.0};
+constexpr std::array<double, 4> rings_of_1 = {0.0, 0.055, 0.35, 1.0};
 constexpr std::array<double, 3> coarse_rings = {0.0, 0.55, 1.0};
 constexpr std::array<double, 2> no_rings = {0.0, 1.0};
 
@@ -274,7 +274,7 @@ class WoodBuilder {
             for (BarkPoint& point : points) point.distance += 0.6 * height;
             return even_contact(points);
         }
-        const double share = level == 0 ? 1.0 : 0.7;
+        const double share = level == 0 ? 1.0 : 0.5;
         const std::vector<float> rise = bark_rise(shape.kind, BarkNoise(shape.kind, across, along));
         for (std::size_t i = 0; i < points.size(); ++i)
             points[i].distance += height * (0.6 + share * (static_cast<double>(rise[i]) - 0.6));
