@@ -354,6 +354,10 @@ void EndPainter::paint_row(std::size_t y) {
     const double radius =
         std::clamp((wood_end_middle - v) / (wood_end_middle - wood_end_rim), 0.0, 1.0);
     const std::vector<float> wobble = noise_.row(3, 2.0 * radius, 0U);
+    const std::vector<float> ripple = noise_.row(11, 5.0 * radius, 11U);
+    // Years differ in width, and some can hardly be told.
+    const std::vector<float> years = noise_.row(2, 9.0 * radius, 12U);
+    const std::vector<float> faint = noise_.row(7, 4.0 * radius, 13U);
     const std::vector<float> rays = noise_.row(160, 5.0 * radius, 3U);
     const std::vector<float> cracks = noise_.row(9, 0.7 * radius, 4U);
     const std::vector<float> whether = noise_.row(5, 0.3, 5U);
@@ -366,24 +370,27 @@ void EndPainter::paint_row(std::size_t y) {
             return static_cast<double>(values[x]);
         };
         const double grain = of(fine), pore = of(pores);
-        const double rounded = radius + 0.05 * of(wobble) + 0.012 * of(chips);
+        const double rounded = radius + radius * (0.07 * of(wobble) + 0.018 * of(ripple)) +
+                               0.03 * of(years) + 0.006 * of(chips);
         // Rings become narrower towards the bark.
         const double ring = rings_ * rounded * (0.7 + 0.3 * rounded);
         const double within = ring - std::floor(ring);
-        const double late =
-            smooth_step(0.45, 0.92, within) * (1.0 - smooth_step(0.93, 1.0, within));
+        const double late = std::clamp(0.6 + 1.3 * of(faint), 0.0, 1.0) *
+                            smooth_step(0.3, 0.9, within) * (1.0 - smooth_step(0.9, 1.0, within));
         const double heart = 1.0 - smooth_step(0.45, 0.62, rounded + 0.1 * of(stains));
         glm::dvec3 colour = sapwood_ + heart * (heartwood_ - sapwood_);
         colour *=
-            1.0 - 0.2 * late + 0.16 * grain + 0.12 * pore + 0.05 * of(rays) + 0.14 * of(chips);
+            1.0 - 0.15 * late + 0.16 * grain + 0.12 * pore + 0.07 * of(rays) + 0.09 * of(chips);
         // Sun and rain turn wood grey; fungi bleach it, and draw dark lines round what is theirs.
         const double grey = 0.45 + 0.5 * of(stains) + 0.15 * of(chips);
         const double mean = (colour.x + colour.y + colour.z) / 3.0;
         colour += std::clamp(grey, 0.0, 0.8) * (0.74 * glm::dvec3(mean) - colour);
         const double decayed = of(rot) + 0.12 * of(chips) + 0.04 * grain;
         colour += 0.3 * smooth_step(0.1, 0.16, decayed) * (glm::dvec3(0.72, 0.66, 0.54) - colour);
-        const double line = 1.0 - smooth_step(0.008, 0.03, std::abs(decayed - 0.1));
-        colour *= 1.0 - 0.6 * line;
+        // The lines come and go.
+        const double line = (1.0 - smooth_step(0.004, 0.02, std::abs(decayed - 0.1))) *
+                            smooth_step(-0.1, 0.35, of(faint) + 0.4 * of(stains));
+        colour *= 1.0 - 0.45 * line;
         const double algae = smooth_step(0.55, 1.0, radius + 0.5 * of(stains));
         colour += 0.35 * algae * (glm::dvec3(0.3, 0.33, 0.2) - colour);
         const double open = smooth_step(0.0, 0.2, of(whether)) * radius;
@@ -398,7 +405,7 @@ void EndPainter::paint_row(std::size_t y) {
         set_colour(images_, y * count_ + x, colour);
         const std::size_t at = 3 * (y * count_ + x);
         images_.rgb[1][at] = share_as_byte(0.5 + 0.16 * grain + 0.05 * of(rays));
-        images_.rgb[1][at + 1] = share_as_byte(0.5 + 0.16 * pore + 0.06 * (late - 0.3));
+        images_.rgb[1][at + 1] = share_as_byte(0.5 + 0.16 * pore + 0.04 * (late - 0.2));
         images_.rgb[1][at + 2] = share_as_byte(0.985);
         images_.rgb[2][at] = share_as_byte(1.0 - 0.7 * gap - 0.5 * cambium + 0.2 * pore);
         images_.rgb[2][at + 1] = share_as_byte(0.9 + 0.08 * grain);
