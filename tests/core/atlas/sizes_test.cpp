@@ -122,7 +122,8 @@ Measured measure(MushroomSpec order) {
     const Individual individual = resolve(order, straight_atlas());
     const Mesh mesh = mushroom_mesh(order, individual);
     glm::vec3 low(1e9F), high(-1e9F);
-    // Last comes what spreads over the bark, which records of heights leave out.
+    // The last vertices are those of the collar. Records give the thickness of what stands out from
+    // the wood; flesh that lies flat on the bark is no part of it.
     const std::size_t spread = collar_count(individual, order.params.lod).vertices;
     for (std::size_t i = 0; i + spread < mesh.positions.size(); ++i) {
         const glm::vec2 uv = mesh.texture_coordinates[i];

@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/mesh/measure.h"
+#include "core/surface/charts.h"
+#include "tests/support/intrusion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
+#include "tests/support/triangle_grid.h"
 
 namespace sporeprint::geometry_collar_test {
 namespace {
@@ -58,12 +62,62 @@ TEST(Collar, SpreadsOverTheBarkAndGoesIntoTheWood) {
     }
 }
 
+TEST(Collar, LiesOnTheFacesOfTheBracketOrInsideWhereItReachesOutMost) {
+    for (const std::string& id : brackets) {
+        MushroomSpec spec = order_of(id);
+        // Gills reach beyond it, and it lies on their edges.
+        spec.params.hymenium.depth = 0.0;
+        const Individual individual = resolved(spec);
+        const MeshCount count = collar_count(individual, 0);
+        Mesh bare = on_wall(spec, individual.azimuth.base);
+        const std::vector<glm::vec3> collar(
+            bare.positions.end() - static_cast<std::ptrdiff_t>(count.vertices),
+            bare.positions.end());
+        bare.indices.resize(bare.indices.size() - 3 * count.triangles);
+        TriangleGrid grid(bare);
+        float front = 0.0F;
+        for (const glm::vec3& place : collar) front = std::max(front, place.z);
+        const Solid solid(bare);
+        for (const glm::vec3& place : collar) {
+            const glm::dvec3 at(place);
+            if (place.z < 0.8F * front || solid.contains(at)) continue;
+            EXPECT_LT(std::sqrt(grid.squared_distance(at)), 0.3 * collar_size(individual)) << id;
+        }
+    }
+}
+
+TEST(Collar, HasTheImageOfTheFacesOfTheBracket) {
+    for (const std::string& id : brackets)
+        for (int lod = 0; lod < 3; ++lod) {
+            const MushroomSpec spec = textured(order_of(id, 0.6, 2, lod));
+            const Mesh mesh = mesh_of(spec);
+            const std::size_t count = collar_count(resolved(spec), lod).vertices;
+            ASSERT_LT(count, mesh.texture_coordinates.size());
+            const std::size_t first = mesh.texture_coordinates.size() - count;
+            for (std::size_t i = 0; i < count; ++i) {
+                const glm::vec2 at = mesh.texture_coordinates[first + i];
+                EXPECT_EQ(part_at(static_cast<double>(at.x), static_cast<double>(at.y)),
+                          2 * i < count ? Part::hymenium : Part::cap)
+                    << id << ", " << lod;
+            }
+        }
+}
+
 TEST(Collar, BelongsToBracketsAndIsTooSmallFromFarAway) {
     for (const char* id : {"boletus_edulis", "amanita_muscaria", "clathrus_ruber"})
         for (int lod = 0; lod < 4; ++lod)
             EXPECT_EQ(collar_count(resolved(order_of(id)), lod).triangles, 0U) << id;
     for (const std::string& id : brackets)
         EXPECT_EQ(collar_count(resolved(order_of(id)), 3).triangles, 0U) << id;
+}
+
+TEST(Collar, IsNotThereWithoutALowerFace) {
+    const MushroomSpec spec = order_of("daldinia_concentrica");
+    Individual individual = resolved(spec);
+    individual.azimuth.base = 0.3;
+    EXPECT_EQ(collar_count(individual, 0).triangles, 0U);
+    EXPECT_EQ(collar_size(individual), 0.0);
+    EXPECT_EQ(defects(mushroom_mesh(spec, individual)), std::vector<std::string>{});
 }
 
 TEST(Collar, OfWhatHardlyGrowsFromAWallEnclosesNothing) {
