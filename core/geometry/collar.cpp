@@ -32,7 +32,7 @@ constexpr double upwards = 0.4, sidewards = 0.75;
 
 /// The share of its columns that lies beyond the bracket, and how far at most it reaches out to what
 /// stands off the wall, in widest radii.
-constexpr double end = 0.1, most_off = 0.12;
+constexpr double end = 0.1, most_off = 0.09;
 
 /// The least width of a bracket with a whole collar, in widest radii.
 constexpr double least_width = 0.5;
@@ -45,6 +45,9 @@ constexpr double reach = 1.7;
 
 /// Within which distance vertices of a face count most, in widest radii.
 constexpr double field_width = 0.12;
+
+/// How far the height of a face where it ends may be from that at the wall, in widest radii.
+constexpr double steepest = 0.5;
 
 /// From which distance to the wall on, in widest radii, a margin hides the end of its collar, and how
 /// far within the margin that is, in further distances from the wall.
@@ -61,8 +64,8 @@ constexpr double most_image = 0.97, least_image = hymenium_inner_share + 0.03;
 /// Before them comes one in the wood, after them one inside of the bracket.
 constexpr std::array<double, 6> fine_rows = {0.0, 0.1, 0.28, 0.5, 0.75, 1.0};
 constexpr std::array<double, 3> middle_rows = {0.0, 0.45, 1.0};
-constexpr int middle_columns = 20, coarse_columns = 14;
-constexpr std::array<double, 2> coarse_rows = {0.0, 0.5};
+constexpr int middle_columns = 20, coarse_columns = 10;
+constexpr std::array<double, 1> coarse_rows = {0.0};
 
 /// Depends on the species of a mix alone, not on their weights. Clubs have no lower face.
 bool has_collar(const Individual& individual) {
@@ -381,6 +384,8 @@ class CollarBuilder {
             const FaceField& field = is_upper ? upper_ : lower_;
             const double contact = is_upper ? here.upper.y : here.lower.y;
             half.face = field.at(result.end_x, result.front, contact);
+            half.face.height = std::clamp(half.face.height, contact - steepest * radius_,
+                                          contact + steepest * radius_);
             (is_upper ? high : low) = half.face.height;
             half.corner = middle + within * (is_upper ? std::max(contact - middle, 0.0)
                                                       : std::min(contact - middle, 0.0));
