@@ -245,17 +245,18 @@ class FaceField {
                 for (std::size_t k = i; k < 3; ++k) sums[i][k] += weight * terms[i] * terms[k];
         }
 
-        /// Returns the inverse. Slopes across which no vertices lie are 0.
+        /// Returns the inverse; zeros without vertices. Slopes across which no vertices lie are 0.
         [[nodiscard]] std::array<std::array<double, 3>, 3> solved() const {
+            if (sums[0][0] <= 0.0) return {};
             const double least = 0.02 * sums[0][0];
             const double a = sums[0][0], b = sums[0][1], c = sums[0][2], d = sums[1][1] + least,
                          e = sums[1][2], f = sums[2][2] + least;
-            const double A = d * f - e * e, B = c * e - b * f, C = b * e - c * d;
-            const double over = 1.0 / (a * A + b * B + c * C);
-            const double D = a * f - c * c, E = b * c - a * e, F = a * d - b * b;
-            return {{{A * over, B * over, C * over},
-                     {B * over, D * over, E * over},
-                     {C * over, E * over, F * over}}};
+            const double of_a = d * f - e * e, of_b = c * e - b * f, of_c = b * e - c * d,
+                         of_d = a * f - c * c, of_e = b * c - a * e, of_f = a * d - b * b;
+            const double over = 1.0 / (a * of_a + b * of_b + c * of_c);
+            return {{{of_a * over, of_b * over, of_c * over},
+                     {of_b * over, of_d * over, of_e * over},
+                     {of_c * over, of_e * over, of_f * over}}};
         }
     };
 
@@ -446,8 +447,8 @@ class CollarBuilder {
         const glm::dvec2 radii(rim.u - middle.u, rim.v - middle.v);
         const glm::dvec2 from = (at - glm::dvec2(middle.u, middle.v)) / radii;
         const double share = std::sqrt(glm::dot(from, from));
-        const double held = std::clamp(share, is_upper ? 0.0 : least_image, most_image);
-        const double factor = share > 0.0 ? held / share : 1.0;
+        const double within = std::clamp(share, is_upper ? 0.0 : least_image, most_image);
+        const double factor = share > 0.0 ? within / share : 1.0;
         return glm::vec2(glm::dvec2(middle.u, middle.v) + factor * from * radii);
     }
 

@@ -355,7 +355,7 @@ void EndPainter::paint_row(std::size_t y) {
         std::clamp((wood_end_middle - v) / (wood_end_middle - wood_end_rim), 0.0, 1.0);
     const std::vector<float> wobble = noise_.row(3, 2.0 * radius, 0U);
     const std::vector<float> ripple = noise_.row(11, 5.0 * radius, 11U);
-    // Years differ in width, and some can hardly be told.
+    // Years differ in width, and some are hardly visible.
     const std::vector<float> years = noise_.row(2, 9.0 * radius, 12U);
     const std::vector<float> faint = noise_.row(7, 4.0 * radius, 13U);
     const std::vector<float> rays = noise_.row(160, 5.0 * radius, 3U);
