@@ -64,7 +64,9 @@ void check_transform(const glm::dvec4& rotation, const glm::vec3& scale) {
 
 // Bits of the transforms of compressed instances: errors are 2^-15 of the distance from the node,
 // 0.03 degrees, and 2^-10 of the size, which is a fifth of a millimetre at the tip of a long leaf.
-constexpr int bits_of_translations = 15, bits_of_rotations = 12, bits_of_scales = 12;
+// Tints are as exact as bytes.
+constexpr int bits_of_translations = 15, bits_of_rotations = 12, bits_of_scales = 12,
+              bits_of_tints = 9;
 
 /// Writes the transforms of instances, as floats, which need no normalisation by readers; nodes
 /// with equal ones share their accessors.
@@ -79,7 +81,8 @@ class InstanceWriter {
     ///
     /// step  of the positions of their mesh, by which the node is scaled
     std::string attributes_of(const std::vector<GlbTransform>& places, double step) {
-        std::vector<float> translations, rotations, scales;
+        std::vector<float> translations, rotations, scales, tints;
+        bool has_tints = false;
         const auto put_vector = [](std::vector<float>& out, const auto& vector) {
             for (int k = 0; k < vector.length(); ++k) out.push_back(vector[k]);
         };
@@ -88,6 +91,8 @@ class InstanceWriter {
             put_vector(translations, glm::vec3(place.translation / step));
             put_vector(rotations, glm::vec4(place.rotation));
             put_vector(scales, glm::vec3(place.scale));
+            put_vector(tints, place.tint);
+            has_tints = has_tints || place.tint != glm::vec3(1.0F);
         }
         std::string attributes;
         append(attributes += "\"TRANSLATION\":",
@@ -95,6 +100,8 @@ class InstanceWriter {
         append(attributes += ",\"ROTATION\":",
                accessor_of(rotations, "VEC4", 4, bits_of_rotations));
         append(attributes += ",\"SCALE\":", accessor_of(scales, "VEC3", 3, bits_of_scales));
+        if (has_tints)
+            append(attributes += ",\"_COLOR_0\":", accessor_of(tints, "VEC3", 3, bits_of_tints));
         return attributes;
     }
 

@@ -98,6 +98,7 @@ struct GlbTransform {
     glm::dvec3 translation{0.0};
     glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
     glm::dvec3 scale{1.0};
+    glm::vec3 tint{1.0F};  ///< factor of the base colour, linear, 0..1
 };
 
 /// An extension of an object of the file.
@@ -114,7 +115,7 @@ struct GlbNode {
     glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
     glm::dvec3 scale{1.0};
     /// EXT_mesh_gpu_instancing: the mesh is drawn once for each of these transforms, relative to
-    /// the node; readers must support the extension.
+    /// the node; readers must support the extension. Tints are its attribute _COLOR_0, which some read.
     std::vector<GlbTransform> instances = {};
     /// Indices into the scene's nodes; a node with children has no mesh, because the scale of
     /// quantised positions would also scale them.
@@ -156,7 +157,8 @@ struct GlbScene {
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture
 /// coordinates as normalised u16, u16 indices where they fit. Texture coordinates are written if and
-/// only if the material has images, tangents unless these are external; materials with the same
+/// only if the material has images, tangents unless these are external, tints as COLOR_0 unless that
+/// holds the sway; materials with the same
 /// images share their textures, nodes with the same instances their accessors. Identity transforms
 /// of nodes are omitted. Targets are dense: positions and normals move nearly everywhere, so sparse
 /// accessors would be larger.

@@ -25,7 +25,8 @@ void check_mesh(const Mesh& mesh, TextureData data) {
     if (n == 0 || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
     if (mesh.normals.size() != n || (data == TextureData::all && mesh.tangents.size() != n) ||
         (data != TextureData::none && mesh.texture_coordinates.size() != n) ||
-        (!mesh.sway.empty() && mesh.sway.size() != n))
+        (!mesh.sway.empty() && mesh.sway.size() != n) ||
+        (!mesh.tints.empty() && mesh.tints.size() != n))
         throw GenerationError("a mesh lacks what its material needs of each vertex");
 }
 
@@ -122,6 +123,24 @@ std::vector<StreamPlan> sway_streams(const Mesh& mesh, bool textured, GlbSway fo
             })};
 }
 
+/// Returns whether the tints of a mesh are written: not where its sway takes the place of colours.
+bool writes_tints(const Mesh& mesh, GlbSway format) {
+    return !mesh.tints.empty() && (mesh.sway.empty() || format != GlbSway::color);
+}
+
+/// Returns the stream of the tints of a mesh. Items of four bytes are aligned as readers need it.
+StreamPlan tint_stream(const Mesh& mesh, bool encoded) {
+    return {vertex_stream("COLOR_0", u8_component, "VEC4", normalized, encoded),
+            [&mesh](Stream& stream) {
+                std::vector<std::array<std::uint8_t, 4>> items;
+                items.reserve(mesh.tints.size());
+                for (const glm::vec3& tint : mesh.tints)
+                    items.push_back({normalized_byte(tint.x), normalized_byte(tint.y),
+                                     normalized_byte(tint.z), 255});
+                stream.set_items(items);
+            }};
+}
+
 /// Throws GenerationError for a target with another number of vertices than its mesh.
 void check_targets(const GlbPrimitive& primitive) {
     const std::size_t vertices = primitive.mesh->positions.size();
@@ -169,7 +188,9 @@ PrimitiveJson write_floats(const GlbPrimitive& primitive, TextureData data, GlbS
     const std::size_t sway_size = mesh.sway.empty()                      ? 0
                                   : sway == GlbSway::texture_coordinates ? 8
                                                                          : 4;
-    Chunk chunk(n * (12 + 12 + (has_tangents ? 16 : 0) + (has_coordinates ? 4 : 0) + sway_size) +
+    const bool has_tints = writes_tints(mesh, sway);
+    Chunk chunk(n * (12 + 12 + (has_tangents ? 16 : 0) + (has_coordinates ? 4 : 0) + sway_size +
+                     (has_tints ? 4 : 0)) +
                 padded(index_bytes));
     PrimitiveMembers out;
     chunk.append(std::span<const glm::vec3>(mesh.positions));
@@ -188,7 +209,9 @@ PrimitiveJson write_floats(const GlbPrimitive& primitive, TextureData data, GlbS
         out.attribute("TEXCOORD_0",
                       tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
-    for (auto& [stream, set] : sway_streams(mesh, has_coordinates, sway, false)) {
+    std::vector<StreamPlan> plans = sway_streams(mesh, has_coordinates, sway, false);
+    if (has_tints) plans.push_back(tint_stream(mesh, false));
+    for (auto& [stream, set] : plans) {
         set(stream);
         stream.encode();
         chunk.append(std::span<const std::uint8_t>(*stream.bytes));
@@ -231,6 +254,7 @@ class QuantizedPrimitive {
         plan_vertices(data, step, compressed);
         for (StreamPlan& plan : sway_streams(mesh_, data != TextureData::none, sway, compressed))
             attributes_.push_back(std::move(plan));
+        if (writes_tints(mesh_, sway)) attributes_.push_back(tint_stream(mesh_, compressed));
         const bool small = mesh_.positions.size() <= 65535;
         triangle_stream_ = {.items = mesh_.indices.size(),
                             .stride = small ? 2U : 4U,

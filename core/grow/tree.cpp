@@ -22,10 +22,14 @@
 #include "core/plant/foliage.h"
 #include "core/plant/root_flare.h"
 #include "core/plant/tree_sway.h"
+#include "core/plant/tree_tints.h"
 
 namespace sporeprint {
 
 namespace {
+
+// Bytes of the tint of a vertex, and of that of an instance.
+constexpr std::uint64_t bytes_of_tint = 4, bytes_of_instance_tint = 12;
 
 // One seed for the images of bark, so that all trees of a style share them.
 constexpr std::uint32_t bark_seed = 1;
@@ -38,6 +42,13 @@ std::uint64_t texels_of(const TreeParams& params) {
     const std::uint64_t kinds = params.look.leaves.per_tip > 0 ? 2 : 1;
     const bool has_images = params.textures != Textures::none && params.lod != impostor_lod;
     return has_images ? kinds * 3 * side * side : 0;
+}
+
+/// Returns whether vertices have tints: where images are coloured, and colours are not the weights of
+/// wind.
+bool has_tints(const TreeParams& params) {
+    return params.look.leaves.hue_spread > 0.0 && params.textures != Textures::none &&
+           params.file.wind != WindFormat::color;
 }
 
 void finish(Mesh& mesh, const TreeParams& params) {
@@ -63,9 +74,10 @@ void refuse_beyond_bounds(const Tree& tree) {
 
 /// Adds the leaves at a level of detail.
 ///
-/// sway  of the tree; null for leaves without it
+/// sway   of the tree; null for leaves without it
+/// tints  of the tree; null for leaves of one hue
 void add_leaves(TreeMeshes& meshes, const Tree& tree, const TreeParams& params,
-                const LeafParams& leaf, const TreeSway* sway) {
+                const LeafParams& leaf, const TreeSway* sway, const TreeTints* tints) {
     Foliage foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, params.lod);
     if (foliage.leaves.empty()) return;
     if (params.instancing == LeafInstancing::gpu) {
@@ -73,11 +85,14 @@ void add_leaves(TreeMeshes& meshes, const Tree& tree, const TreeParams& params,
             meshes.places.push_back(
                 {params.size * one.place,
                  quaternion_of({glm::cross(one.up, one.along), one.up, one.along}),
-                 one.size * glm::dvec3(one.breadth, 1.0, 1.0)});
+                 one.size * glm::dvec3(one.breadth, 1.0, 1.0),
+                 tints ? tints->of_leaf(one) : glm::vec3(1.0F)});
         meshes.leaves = std::move(foliage.leaf);
     } else {
         meshes.leaves = merged_leaves(foliage.leaves, foliage.leaf);
         if (sway) meshes.leaves.sway = sway_of(foliage.leaves, foliage.leaf, *sway);
+        if (tints)
+            meshes.leaves.tints = tints_of(foliage.leaves, foliage.leaf.positions.size(), *tints);
     }
     finish(meshes.leaves, params);
 }
@@ -130,6 +145,10 @@ void add_level(Estimate& e, const TreeParams& params, const LevelCount& count) {
     const std::uint64_t stored =
         is_instanced ? count.bark.triangles + count.leaf.triangles : total.triangles;
     add_level(e, total.vertices, stored, params.textures, params.file);
+    if (has_tints(params))
+        e.bytes += is_instanced
+                       ? bytes_of_tint * count.bark.vertices + bytes_of_instance_tint * count.leaves
+                       : bytes_of_tint * total.vertices;
     e.triangles += total.triangles - stored;
     if (is_instanced) e.bytes += 1000 + count.leaves * bytes_of_instance(params.file);
 }
@@ -291,15 +310,18 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
         wind.flutter =
             leaf_flutter * params.size * params.look.leaves.leaf_size * leaf.shape.length;
     }
+    std::optional<TreeTints> tints;
+    if (has_tints(params)) tints.emplace(tree, params.look.leaves.hue_spread, params.seed);
     std::vector<TreeMeshes> levels;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         params.lod = lod;
         Bark bark = bark_of(tree, lod);
         flare_roots(bark, tree, params.look.shape.root_flare, params.seed);
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
+        if (tints) bark.mesh.tints = tints_of(bark, *tints);
         TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);
-        add_leaves(meshes, tree, params, leaf, sway ? &*sway : nullptr);
+        add_leaves(meshes, tree, params, leaf, sway ? &*sway : nullptr, tints ? &*tints : nullptr);
         levels.push_back(std::move(meshes));
     }
     return levels;

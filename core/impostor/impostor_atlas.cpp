@@ -127,6 +127,8 @@ class Facet {
             const glm::vec3 across = glm::cross(normal, along) * (tangent.w < 0.0F ? -1.0F : 1.0F);
             normal = normalised(along * bump.x + across * bump.y + normal * bump.z, normal);
         }
+        found.colour *= draw_->tint;
+        if (!mesh.tints.empty()) found.colour *= mixed(mesh.tints, w);
         found.normal = view_->axes.seen(normal);
         return found;
     }

@@ -108,6 +108,8 @@ class Inspection {
             add("tangents and positions differ in number");
         if (!mesh_.texture_coordinates.empty() && mesh_.texture_coordinates.size() != n)
             add("texture coordinates and positions differ in number");
+        if (!mesh_.tints.empty() && mesh_.tints.size() != n)
+            add("tints and positions differ in number");
         if (mesh_.indices.size() % 3 != 0) add("the number of indices is no multiple of three");
     }
 
@@ -124,6 +126,11 @@ class Inspection {
             if (!(std::abs(glm::dot(t, m)) < unit_tolerance))
                 add("tangent is not square to the normal" + at);
             if (std::abs(mesh_.tangents[i].w) != 1.0F) add("handedness is not 1 or -1" + at);
+        }
+        if (!mesh_.tints.empty()) {
+            const glm::vec3& tint = mesh_.tints[i];
+            for (const float x : {tint.x, tint.y, tint.z})
+                if (!(x >= 0.0F && x <= 1.0F)) add("tint is outside 0..1" + at);
         }
         if (!mesh_.texture_coordinates.empty()) {
             const glm::vec2& u = mesh_.texture_coordinates[i];

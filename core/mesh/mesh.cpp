@@ -21,6 +21,7 @@ void append(Mesh& mesh, const Mesh& part) {
     extend(mesh.tangents, part.tangents);
     extend(mesh.texture_coordinates, part.texture_coordinates);
     extend(mesh.sway, part.sway);
+    extend(mesh.tints, part.tints);
     for (const std::uint32_t index : part.indices) mesh.indices.push_back(first + index);
 }
 

@@ -26,13 +26,15 @@ struct Sway {
 [[nodiscard]] float phase_of(std::size_t index);
 
 /// Indexed triangles, counter-clockwise from outside; metres, +Y up. Texture coordinates and
-/// tangents may both be empty, and so may sway.
+/// tangents may both be empty, and so may sway and tints.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> texture_coordinates;
     std::vector<Sway> sway;  ///< how wind moves each vertex; usually empty
+    /// Factors of the base colour of each vertex, linear, 0..1; usually empty.
+    std::vector<glm::vec3> tints;
     std::vector<std::uint32_t> indices;
 
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }

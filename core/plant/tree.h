@@ -255,6 +255,7 @@ struct LeafStyle {
     double leaf_deg = 50.0;
     double droop = 0.3;
     double size_spread = 0.2;
+    double hue_spread = 0.5;
 
     static constexpr void fields(auto visit) {
         using L = LeafStyle;
@@ -277,6 +278,13 @@ struct LeafStyle {
                                     .min = 0,
                                     .max = 0.6,
                                     .doc = "How far leaves vary in size."});
+        visit(&L::hue_spread,
+              Info{.name = "hue_spread",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How far branches differ from each other in the hue and the brightness "
+                          "of their leaves, and by half of that in their bark: COLOR_0, by which "
+                          "viewers multiply the base colour."});
     }
     bool operator==(const LeafStyle&) const = default;
 };

@@ -45,17 +45,18 @@ Placement placement_of(const Affine& map) {
             glm::mat3(glm::transpose(glm::inverse(map.linear)))};
 }
 
-void add_mesh(DrawList& list, const GlbMesh& mesh, const Affine& map) {
+void add_mesh(DrawList& list, const GlbMesh& mesh, const Affine& map,
+              const glm::vec3& tint = glm::vec3(1.0F)) {
     const Placement placement = placement_of(map);
     for (const GlbPrimitive& primitive : mesh.primitives)
-        list.draws.push_back({primitive.mesh, primitive.material, placement});
+        list.draws.push_back({primitive.mesh, primitive.material, placement, tint});
 }
 
 void add_node(DrawList& list, const GlbScene& scene, const GlbNode& node, const Affine& parent) {
     const Affine map = parent * affine_of(node);
     if (node.mesh && node.instances.empty()) add_mesh(list, scene.meshes[*node.mesh], map);
     for (const GlbTransform& instance : node.instances)
-        add_mesh(list, scene.meshes[*node.mesh], map * affine_of(instance));
+        add_mesh(list, scene.meshes[*node.mesh], map * affine_of(instance), instance.tint);
     for (const std::size_t child : node.children) add_node(list, scene, scene.nodes[child], map);
 }
 

@@ -28,6 +28,7 @@ struct Draw {
     const Mesh* mesh = nullptr;
     std::size_t material = 0;
     Placement placement;
+    glm::vec3 tint{1.0F};  ///< factor of the base colour
 };
 
 /// A material; without images it is white and rough.

@@ -177,6 +177,8 @@ class Facet {
             const glm::vec3 across = glm::cross(normal, along) * (tangent.w < 0.0F ? -1.0F : 1.0F);
             normal = normalised(along * bump.x + across * bump.y + normal * bump.z, normal);
         }
+        found.base_color *= draw_->tint;
+        if (!mesh.tints.empty()) found.base_color *= mixed(mesh.tints, w);
         found.normal = normal;
         return found;
     }

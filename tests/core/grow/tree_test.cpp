@@ -55,8 +55,8 @@ TEST_P(EveryTree, ReadsBackFromItsFileAsTwoDrawCalls) {
         for (const ReadPrimitive& part : found.meshes[0]) {
             vertices += part.mesh.positions.size();
             triangles += part.mesh.triangles();
-            EXPECT_EQ(part.attributes,
-                      (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
+            EXPECT_EQ(part.attributes, (std::vector<std::string>{"COLOR_0", "NORMAL", "POSITION",
+                                                                 "TANGENT", "TEXCOORD_0"}));
         }
         EXPECT_EQ(vertices, tree.vertices);
         EXPECT_EQ(triangles, tree.triangles);
@@ -228,6 +228,37 @@ TEST_P(EveryTree, LeavesSitOnItsTwigs) {
         ASSERT_LT(glm::distance(leaf.place, from + t * way),
                   1e-9 + tree.skeleton.nodes[twig + 1].radius);
     }
+}
+
+// Tints are in the file where viewers multiply a base colour by them, and nowhere else.
+TEST(GrownTree, HasTintsUnlessColoursAreTakenOrNothingIsColoured) {
+    using Names = std::vector<std::string>;
+    const auto attributes = [](const TreeSpec& spec) {
+        const ReadScene found = expect_scene(joined(grow_tree(spec, atlas()).glb));
+        EXPECT_EQ(found.meshes[0][0].attributes, found.meshes[0][1].attributes);
+        return found.meshes[0][1].attributes;
+    };
+    TreeSpec spec = order_of("shrub", 3);
+    const Names textured = {"COLOR_0", "NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"};
+    EXPECT_EQ(attributes(spec), textured);
+    for (const Compression compress : {Compression::quantize, Compression::meshopt}) {
+        TreeSpec small = spec;
+        small.params.file.compress = compress;
+        EXPECT_NE(dump(json_chunk(joined(grow_tree(small, atlas()).glb))).find("COLOR_0"),
+                  std::string::npos);
+    }
+    TreeSpec instanced = spec;
+    instanced.params.instancing = LeafInstancing::gpu;
+    EXPECT_NE(dump(json_chunk(joined(grow_tree(instanced, atlas()).glb))).find("_COLOR_0"),
+              std::string::npos);
+    spec.params.file.wind = WindFormat::color;
+    EXPECT_TRUE(tree_meshes(spec, atlas()).leaves.tints.empty()) << "colours are weights of wind";
+    spec.params.file.wind = WindFormat::none;
+    spec.params.look.leaves.hue_spread = 0.0;
+    EXPECT_EQ(attributes(spec), (Names{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
+    spec.params.look.leaves.hue_spread = 0.5;
+    spec.params.textures = Textures::none;
+    EXPECT_EQ(attributes(spec), (Names{"NORMAL", "POSITION"}));
 }
 
 TEST(GrownTree, SizeScalesTheMeshes) {

@@ -144,8 +144,8 @@ export class Wind {
             for (const material of materials) {
                 if (seen.has(material)) continue;
                 seen.add(material);
-                // As colours, weights would tint the picture.
-                material.vertexColors = false;
+                // As colours, weights would tint the picture; other colours are tints of branches.
+                if (extras.channels.bend.startsWith("COLOR_0")) material.vertexColors = false;
                 this.patch(material, extras, true);
             }
             const shadow = new MeshDepthMaterial({ depthPacking: RGBADepthPacking });
