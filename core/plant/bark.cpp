@@ -27,6 +27,10 @@ struct Group {
 // source or measurement is recorded.
 constexpr double collar = 1.4;
 
+// Distance of two nodes at least, in radii: cleaned() takes nearer ones apart, and the skin and its
+// image would begin anew.
+constexpr double apart = 2.1;
+
 // Returns how thin an order is: 0 for the trunk, 1 for branches, 2 for twigs, which are never
 // subdivided.
 int thinness(int order, int highest) {
@@ -111,7 +115,9 @@ class PartBuilder {
     std::uint32_t add_segment(std::uint32_t from, const Skeleton::Node& to, std::uint32_t label) {
         const Skeleton::Node start = part_.nodes[from];
         const double length = glm::distance(start.place, to.place);
-        const double steps = std::floor(length / (gap_ * std::max(start.radius, to.radius)));
+        const double thick = std::max(start.radius, to.radius);
+        const double steps = std::max(0.0, std::min(std::floor(length / (gap_ * thick)),
+                                                    std::floor(length / (apart * thick)) - 1.0));
         if (static_cast<double>(part_.nodes.size()) + steps >
             static_cast<double>(most_skeleton_nodes))
             throw_too_thin(static_cast<double>(part_.nodes.size()) + steps);
@@ -169,6 +175,17 @@ Skeleton part_of(const Tree& tree, const Group& group, double tolerance) {
             const std::uint32_t next = within(grown.nodes[i].children[0])
                                            ? grown.nodes[i].children[0]
                                            : grown.nodes[i].children[1];
+            // The end of the axis stays, so that the node before it has to go.
+            const Skeleton::Node &start = part.node(from), &end = tree.skeleton.nodes[next + 1];
+            const bool is_near =
+                glm::distance(start.place, here.place) <
+                    apart * std::max(start.radius, here.radius) ||
+                (children[next] == 0 &&
+                 glm::distance(here.place, end.place) < apart * std::max(here.radius, end.radius));
+            if (is_near && group.levels > 0 && group.low == grown.nodes[0].order) {
+                place[i] = from;
+                continue;
+            }
             if (is_dispensable(here, part.node(from), tree.skeleton.nodes[next + 1], tolerance,
                                group.gap)) {
                 place[i] = from;
@@ -178,6 +195,69 @@ Skeleton part_of(const Tree& tree, const Group& group, double tolerance) {
         place[i] = part.add_segment(from, here, i);
     }
     return std::move(part).take();
+}
+
+// Turns of a trunk's skin about its middle line, to a girth along it. An image is mirrored at each of
+// its ends, so it returns after two images; a golden angle between its returns brings each to another
+// side than all before. Ridges lean by five degrees, as grain that winds up a tree does.
+constexpr double turns_of_girth = 0.381966 / (2.0 * bark_girths);
+
+// The middle line of an unbranched part: points, and directions that change evenly between them.
+class MiddleLine {
+  public:
+    // part  each segment goes on from the end of the one before
+    explicit MiddleLine(const Skeleton& part) {
+        for (const Skeleton::Segment& segment : part.segments) {
+            const glm::dvec3 from = part.nodes[segment.from].place,
+                             to = part.nodes[segment.to].place;
+            if (at_.empty()) {
+                at_.push_back(0.0);
+                places_.push_back(from);
+            }
+            at_.push_back(at_.back() + glm::distance(from, to));
+            places_.push_back(to);
+        }
+        const std::size_t last = places_.size() - 1;
+        for (std::size_t i = 0; i <= last; ++i)
+            directions_.push_back(
+                glm::normalize(places_[std::min(i + 1, last)] - places_[i == 0 ? 0 : i - 1]));
+    }
+
+    // Turns a point and its normal about the line.
+    //
+    // at  of the point, metres along the line
+    void turn(double at, double angle, glm::vec3& point, glm::vec3& normal) const {
+        const auto after = static_cast<std::size_t>(
+            std::upper_bound(at_.begin() + 1, at_.end() - 1, at) - at_.begin());
+        const double t =
+            std::clamp((at - at_[after - 1]) / (at_[after] - at_[after - 1]), 0.0, 1.0);
+        const glm::dvec3 centre = places_[after - 1] + t * (places_[after] - places_[after - 1]);
+        const glm::dvec3 axis = glm::normalize(directions_[after - 1] +
+                                               t * (directions_[after] - directions_[after - 1]));
+        const SineCosine by = sine_cosine(angle);
+        const auto turned = [&](const glm::dvec3& v) {
+            return by.cosine * v + by.sine * glm::cross(axis, v) +
+                   (1.0 - by.cosine) * glm::dot(axis, v) * axis;
+        };
+        point = glm::vec3(centre + turned(glm::dvec3(point) - centre));
+        normal = glm::vec3(glm::normalize(turned(glm::dvec3(normal))));
+    }
+
+  private:
+    std::vector<double> at_;
+    std::vector<glm::dvec3> places_, directions_;
+};
+
+// Winds the skin of an unbranched part about its middle line, so that the image on it does not return
+// at the same side.
+void wind(const Skeleton& part, SkinnedSkeleton& skin) {
+    const MiddleLine middle(part);
+    const double girth = 2.0 * pi * skin.strips.front().radius;
+    for (std::size_t i = 0; i < skin.places.size(); ++i) {
+        const double at = skin.places[i].y;
+        middle.turn(at, 2.0 * pi * turns_of_girth * at / girth, skin.mesh.positions[i],
+                    skin.mesh.normals[i]);
+    }
 }
 
 }  // namespace
@@ -195,7 +275,10 @@ Bark bark_of(const Tree& tree, int lod) {
     for (const Group& group : groups_of(highest, lowest_order(segments, lod), lod)) {
         const Skeleton part = part_of(tree, group, tolerance_of(group, highest, lod));
         if (part.segments.empty()) continue;
-        const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
+        const Skeleton clean = cleaned(part).skeleton;
+        SkinnedSkeleton skin = skinned(clean, group.levels);
+        // Tubes of four sides would be twisted; their images are too small to be recognised again.
+        if (group.low == highest && group.levels > 0 && skin.strips.size() == 1) wind(clean, skin);
         append(bark, skin.mesh);
         made.edges.insert(made.edges.end(), skin.labels.begin(), skin.labels.end());
         for (std::size_t s = 0; s < skin.strips.size(); ++s) {
