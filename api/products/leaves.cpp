@@ -16,12 +16,25 @@ Measures Leaves::measure(const LeafSpec& spec, const Atlas&, const ExecutionCont
     return {measured(spec, levels), bounds(leaf_mesh(spec)), levels};
 }
 
-Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }
+/// Returns the cost of cutting what is eaten out of the mesh of a level of detail.
+static std::uint64_t cost_of_openings(const LeafSpec& spec, int lod) {
+    const LeafShape& shape = spec.params.shape;
+    if (shape.leaflets.count > 0 || !(shape.eaten > 0.0)) return 0;
+    // A needle is too narrow for openings.
+    if (lamina_area(shape) < 0.08 * shape.length * shape.length) return 0;
+    return lod == 0 ? 2800 : lod == 1 ? 1100 : 0;
+}
+
+Cost Leaves::cost_of_growing(const LeafSpec& spec) {
+    return {.base = 150 + cost_of_openings(spec, spec.params.lod)};
+}
 
 Cost Leaves::cost_of_describing(const LeafSpec& spec) {
     LeafSpec chain = spec;
     chain.params.file.lods = Lods::nodes;
-    return {.base = 100, .vertices = estimate(chain).vertices};
+    std::uint64_t openings = 0;
+    for (int lod = spec.params.lod; lod < leaf_lods; ++lod) openings += cost_of_openings(spec, lod);
+    return {.base = 100 + 2 * openings, .vertices = estimate(chain).vertices};
 }
 
 Cost Leaves::cost_of_painting(const LeafSpec& spec, const Atlas&) {

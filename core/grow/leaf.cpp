@@ -114,7 +114,7 @@ Mesh leaf_mesh(const LeafSpec& spec) {
     const LeafParams& params = spec.params;
     require_valid(params);
     if (params.triangles) return leaf_mesh(at_level(spec));
-    Mesh mesh = leaf_mesh(shape_of(params), params.lod, params.size);
+    Mesh mesh = leaf_mesh(shape_of(params), params.lod, params.size, params.seed);
     if (params.textures == Textures::none) {
         mesh.texture_coordinates.clear();
         mesh.tangents.clear();
@@ -136,6 +136,7 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
         params.seed = paint.seed;
         params.variation = paint.variation;
         params.shape.relief = paint.relief;
+        params.shape.eaten = paint.eaten;
         params.shape.venation = paint.venation;
         const RawImages images = leaf_images(shape_of(params), paint.palette, paint.autumn,
                                              paint.seed, paint.texture_size, execution.parallel);

@@ -104,7 +104,7 @@ Shell leaflet_shell(const LeafShape& compound, int lod) {
     if (lod >= 2) return kite_of(leaflet);
     const Bending bent(leaflet);
     const std::size_t fan = lod == 0 ? most_foliage_triangles : most_foliage_triangles / 2;
-    Shell polygon = lamina_shell(leaflet, bent, 2);
+    Shell polygon = lamina_shell(leaflet, bent, 2, 0);
     const std::uint64_t most = lod == 0 ? most_leaflet_triangles : 0;
     if (polygon.triangles.size() <= fan ||
         polygon.triangles.size() * static_cast<std::uint64_t>(compound.leaflets.count) <= most)

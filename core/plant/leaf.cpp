@@ -14,6 +14,7 @@
 #include "core/math/random.h"
 #include "core/mesh/tangents.h"
 #include "core/plant/lamina.h"
+#include "core/plant/leaf_damage.h"
 #include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
@@ -23,6 +24,14 @@ namespace {
 constexpr double petiole_radius = 0.011, petiole_reach = 0.12;  // in lengths of the lamina
 constexpr double bow_variation = 0.05;  // of individuals, as a standard deviation
 constexpr double faces_height = 0.9;    // of the image, above the petiole's strip
+
+// By level of detail: lengths of edges about what is eaten, in radii of a spot, of which the first one
+// is taken that is not too many; vertices and triangles of a face for each spot at most. Coarser levels
+// have no openings.
+constexpr int open_lods = 2;
+constexpr std::array<std::array<double, 4>, open_lods> fineness = {
+    {{0.5, 0.7, 1.0, 1.5}, {0.9, 1.3, 1.8, 3.0}}};
+constexpr std::array<std::size_t, open_lods> spot_vertices = {70, 20}, spot_triangles = {116, 28};
 
 struct Level {
     int steps;
@@ -154,11 +163,36 @@ LeafChart chart_of(const Lamina& lamina) {
 
 int leaf_steps(const Venation& venation, int lod) { return level_of(venation, lod).steps; }
 
-Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod) {
+std::vector<EatenSpot> spots_of(const LeafShape& shape, std::uint32_t seed) {
+    if (shape.leaflets.count > 0 || !(shape.eaten > 0.0)) return {};
+    return eaten_spots(lamina_of(shape.venation, leaf_steps(shape.venation, 0)), shape.eaten, seed);
+}
+
+namespace {
+
+/// Cuts spots out as finely as the level of detail allows.
+void cut_out_spots(LaminaMesh& lamina, const std::vector<EatenSpot>& spots, int lod) {
+    if (spots.empty()) return;
+    const auto level = static_cast<std::size_t>(lod);
+    for (const double fine : fineness[level]) {
+        LaminaMesh open = lamina;
+        cut_out(open, spots, fine);
+        if (open.vertices.size() > lamina.vertices.size() + spots.size() * spot_vertices[level] ||
+            open.triangles.size() > lamina.triangles.size() + spots.size() * spot_triangles[level])
+            continue;
+        lamina = std::move(open);
+        return;
+    }
+}
+
+}  // namespace
+
+Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod, std::uint32_t seed) {
     const Level level = level_of(shape.venation, lod);
     const Lamina lamina = lamina_of(shape.venation, level.steps);
     const LeafChart chart = chart_of(lamina);
-    const LaminaMesh flat = lamina_mesh(lamina, level.rows, level.fill);
+    LaminaMesh flat = lamina_mesh(lamina, level.rows, level.fill);
+    if (lod < open_lods) cut_out_spots(flat, spots_of(shape, seed), lod);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(flat.vertices.size());
     for (const bool upper : {true, false})
@@ -214,7 +248,7 @@ void fit_to(const Shell& like, Shell& shell) {
 
 }  // namespace
 
-Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
+Mesh leaf_mesh(const LeafShape& shape, int lod, double size, std::uint32_t seed) {
     throw_if_invalid(shape);
     if (lod < 0 || lod >= leaf_lods)
         throw InvalidInput("/lod",
@@ -226,7 +260,7 @@ Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
     }
     const Level level = level_of(shape.venation, lod);
     const Bending bent(shape);
-    Shell shell = lamina_shell(shape, bent, lod);
+    Shell shell = lamina_shell(shape, bent, lod, seed);
     if (lod + 1 == leaf_lods && shell.triangles.size() > most_foliage_triangles) {
         Shell far = foliage_shell(shape, bent, most_foliage_triangles, Preserved::extent);
         fit_to(shell, far);
@@ -263,6 +297,11 @@ LeafCount most_of_leaf(const LeafShape& shape, int lod) {
     // the abscissas of both sides.
     count.vertices += 2 * lobes * (2 * abscissas * (rows - 1) + 4 * abscissas);
     count.triangles += 2 * lobes * (2 * abscissas * 2 * (rows - 1) + 8 * abscissas);
+    if (lod < open_lods) {
+        const auto spots = static_cast<std::uint64_t>(most_eaten_spots(shape.eaten));
+        count.vertices += 2 * spots * spot_vertices[static_cast<std::size_t>(lod)];
+        count.triangles += 2 * spots * spot_triangles[static_cast<std::size_t>(lod)];
+    }
     return count;
 }
 

@@ -24,6 +24,7 @@ struct LeafShape {
     double wave = 0.2;
     double waves = 2.0;
     double bow = 0.0;
+    double eaten = 0.03;
     Leaflets leaflets;
 
     static constexpr void fields(auto visit) {
@@ -71,6 +72,13 @@ struct LeafShape {
                             .max = 0.4,
                             .doc = "How far the tip stands beside the line of the petiole, in "
                                    "lengths of the limb."});
+        visit(&L::eaten,
+              Info{.name = "eaten",
+                   .min = 0,
+                   .max = 0.3,
+                   .doc = "Share of the limb that insects have eaten: holes, and bites at its "
+                          "border, with brown rims. Of simple leaves; they are open at levels 0 "
+                          "and 1 of a leaf, and painted at coarser ones and on trees."});
         visit(&L::leaflets,
               Info{.name = "leaflets",
                    .doc = "Leaflets of a compound leaf. Its length and its curl are those of the "
@@ -133,15 +141,17 @@ inline constexpr int leaf_lods = 4;
 /// Returns the whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face
 /// up.
 ///
-/// lod      0: about 2,000 triangles; 1: about 500; 2: the polygon of the source; 3: a fan of
+/// lod      0: about 2,000 triangles, and up to 240 for each place that is eaten; 1: about 500; 2: the polygon of the source; 3: a fan of
 ///          most_foliage_triangles of the same length and width, or the polygon if it has no more
 ///          triangles. Of a compound leaf each leaflet is 0: the polygon, if all have no more than
 ///          most_leaflet_triangles together; 1: a fan; 2 and 3: a kite
 /// size     scale of the whole
+/// seed     determines where the leaf is eaten
 /// returns  closed pieces: the lamina, with its veins as relief, and the petiole; or the axis and
 ///          each leaflet
 /// throws   InvalidInput with all that check() reports
-[[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod, double size = 1.0);
+[[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod, double size = 1.0,
+                             std::uint32_t seed = 1);
 
 struct LeafCount {
     std::uint64_t vertices = 0, triangles = 0;

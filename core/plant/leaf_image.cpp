@@ -11,6 +11,7 @@
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
 #include "core/plant/image_rows.h"
+#include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
 
@@ -18,6 +19,11 @@ namespace {
 
 // Linear colours of dry marks of insects and fungi and of their rims.
 const glm::dvec3 dry(0.15, 0.085, 0.035), rim(0.36, 0.34, 0.1);
+
+// Colours of the border of what is eaten, where the flesh dries, and of what lies behind it where no mesh
+// is open; widths of that border and of the paler halo about it, in lengths of the lamina.
+const glm::dvec3 bitten(0.11, 0.055, 0.02), behind(0.035, 0.026, 0.015);
+constexpr double bitten_width = 0.009, halo_width = 0.022;
 
 constexpr int finest_row = 512;  // points per row that resolve the veins of a leaf
 
@@ -107,6 +113,7 @@ class LeafPainter {
           relief_(shape.relief),
           net_(shape.venation.net),
           marks_(palette.marks),
+          eaten_(spots_of(shape, seed)),
           seed_(seed),
           count_(side),
           points_(std::clamp<std::size_t>(finest_row / side, 1, most_points)),
@@ -353,6 +360,21 @@ class LeafPainter {
         for (glm::dvec3* face : {&faces.upper, &faces.lower})
             *face +=
                 std::abs(mark) * ((mark > 0.0 ? dry : rim) - *face) * (mark > 0.0 ? 0.85 : 0.4);
+        for (const EatenSpot& spot : eaten_) {
+            const glm::dvec2 at(columns_[point], line.y);
+            const double reach = EatenSpot::farthest * spot.radius + halo_width;
+            if (std::abs(at.x - spot.middle.x) > reach || std::abs(at.y - spot.middle.y) > reach)
+                continue;
+            const double out = spot.outside(at) + 0.003 * cell;
+            const double halo = 0.5 * (1.0 - smooth_step(0.0, halo_width, out)),
+                         edge = 1.0 - smooth_step(0.3 * bitten_width, bitten_width, out),
+                         hole = 1.0 - smooth_step(-bitten_width, -0.5 * bitten_width, out);
+            for (glm::dvec3* face : {&faces.upper, &faces.lower}) {
+                *face += halo * (rim - *face);
+                *face += edge * (bitten - *face);
+                *face += hole * (behind - *face);
+            }
+        }
         const double shade = share_ * (1.0 + 0.16 * blotch + 0.1 * cell);
         const double rough = 0.08 * cell + 0.2 * autumn_;
         upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.5 + rough);
@@ -372,6 +394,7 @@ class LeafPainter {
     LeafColourMap colour_map_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
     double autumn_, relief_, net_, marks_;
+    std::vector<EatenSpot> eaten_;
     std::uint32_t seed_;
     std::size_t count_;   // texels in a row
     std::size_t points_;  // per texel in each direction, because veins are narrow

@@ -13,6 +13,7 @@
 #include "core/math/elementary.h"
 #include "core/mesh/mesh.h"
 #include "core/plant/leaf.h"
+#include "core/plant/leaf_damage.h"
 
 namespace sporeprint {
 
@@ -67,8 +68,14 @@ struct Shell {
     [[nodiscard]] Mesh mesh(double scale) const;
 };
 
+/// Returns where a leaf is eaten; nowhere if it is compound.
+///
+/// seed  of the individual
+[[nodiscard]] std::vector<EatenSpot> spots_of(const LeafShape& shape, std::uint32_t seed);
+
 /// Returns both faces of a simple leaf on the grid of a level of detail.
-[[nodiscard]] Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod);
+[[nodiscard]] Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod,
+                                 std::uint32_t seed);
 
 /// Returns the leaflets of a compound leaf and its axis at a level of detail, the root of the axis at
 /// the origin.

@@ -16,6 +16,8 @@ LeafPaint paint_of(const LeafParams& params) {
     paint.autumn = params.autumn;
     paint.texture_size = {params.texture_size >> params.lod};
     paint.relief = params.shape.relief;
+    // Images of compound leaves show no damage.
+    paint.eaten = params.shape.leaflets.count > 0 ? 0.0 : params.shape.eaten;
     paint.venation = params.shape.venation;
     paint.palette = params.palette;
     return paint;

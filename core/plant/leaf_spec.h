@@ -70,6 +70,7 @@ struct LeafPaint {
     double autumn = 0.0;
     ImageSide texture_size{1024};
     double relief = 0.6;
+    double eaten = 0.03;
     Venation venation;
     LeafPalette palette;
 
@@ -82,6 +83,7 @@ struct LeafPaint {
         visit(&P::texture_size,
               Info{.name = "side", .unit = "texels", .doc = "Side of this image."});
         visit(&P::relief, info_of<LeafShape>("relief"));
+        visit(&P::eaten, info_of<LeafShape>("eaten"));
         visit(&P::venation, info_of<LeafShape>("venation"));
         visit(&P::palette, Info{.name = ""});
     }
