@@ -1,6 +1,7 @@
 #include "core/grow/tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <optional>
@@ -31,6 +32,14 @@ namespace {
 // Bytes of the tint of a vertex, and of that of an instance.
 constexpr std::uint64_t bytes_of_tint = 4, bytes_of_instance_tint = 12;
 
+// How far the foliage of each far level differs in hue from clump to clump: two clumps that differ
+// would be a tree of two species.
+constexpr std::array<double, far_lods> far_tints = {1.0, 0.5, 0.0};
+
+// Factor of the base colour of the foliage of each far level: clumps have no leaves that shade each
+// other. Measured on pictures of the presets; dense crowns would need less, open ones more.
+constexpr std::array<float, far_lods> far_shades = {1.0F, 0.77F, 0.74F};
+
 // One seed for the images of bark, so that all trees of a style share them.
 constexpr std::uint32_t bark_seed = 1;
 
@@ -38,7 +47,8 @@ constexpr std::uint32_t bark_seed = 1;
 std::uint64_t image_bytes(std::uint64_t texels) { return texels / 5 + 3000; }
 
 std::uint64_t texels_of(const TreeParams& params) {
-    const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
+    const auto side =
+        static_cast<std::uint64_t>(params.texture_size) >> std::min(params.lod, last_lod);
     const std::uint64_t kinds = params.look.leaves.per_tip > 0 ? 2 : 1;
     const bool has_images = params.textures != Textures::none && params.lod != impostor_lod;
     return has_images ? kinds * 3 * side * side : 0;
@@ -47,8 +57,8 @@ std::uint64_t texels_of(const TreeParams& params) {
 /// Returns whether vertices have tints: where images are coloured, and colours are not the weights of
 /// wind.
 bool has_tints(const TreeParams& params) {
-    return params.look.leaves.hue_spread > 0.0 && params.textures != Textures::none &&
-           params.file.wind != WindFormat::color;
+    const bool has_hues = params.look.leaves.hue_spread > 0.0 || params.lod >= first_far_lod;
+    return has_hues && params.textures != Textures::none && params.file.wind != WindFormat::color;
 }
 
 void finish(Mesh& mesh, const TreeParams& params) {
@@ -58,6 +68,16 @@ void finish(Mesh& mesh, const TreeParams& params) {
         mesh.tangents.clear();
     }
     order_for_vertex_cache(mesh);
+}
+
+/// Returns the levels of detail of a file that are meshes: those that end with the last common one,
+/// or the far ones.
+std::vector<int> mesh_levels_of(const TreeParams& params) {
+    if (params.lod < first_far_lod) return levels_in_file(params.lod, params.file);
+    std::vector<int> levels{params.lod};
+    while (params.file.lods != Lods::single && levels.back() < last_far_lod)
+        levels.push_back(levels.back() + 1);
+    return levels;
 }
 
 // Throws Impossible if parameters, each of them in range, together exceed the bounds of a skeleton.
@@ -72,27 +92,34 @@ void refuse_beyond_bounds(const Tree& tree) {
             problems.front().message);
 }
 
-/// Adds the leaves at a level of detail.
+/// Adds leaves as the request repeats them.
 ///
 /// sway   of the tree; null for leaves without it
 /// tints  of the tree; null for leaves of one hue
-void add_leaves(TreeMeshes& meshes, const Tree& tree, const TreeParams& params,
-                const LeafParams& leaf, const TreeSway* sway, const TreeTints* tints) {
-    Foliage foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, params.lod);
+void add_leaves(TreeMeshes& meshes, Foliage foliage, const TreeParams& params, const TreeSway* sway,
+                const TreeTints* tints) {
     if (foliage.leaves.empty()) return;
+    double share = 1.0;
+    float shade = 1.0F;
+    if (params.lod >= first_far_lod) {
+        share = far_tints[static_cast<std::size_t>(params.lod - first_far_lod)];
+        shade = far_shades[static_cast<std::size_t>(params.lod - first_far_lod)];
+    }
     if (params.instancing == LeafInstancing::gpu) {
         for (const PlacedLeaf& one : foliage.leaves)
             meshes.places.push_back(
                 {params.size * one.place,
                  quaternion_of({glm::cross(one.up, one.along), one.up, one.along}),
-                 one.size * glm::dvec3(one.breadth, 1.0, 1.0),
-                 tints ? tints->of_leaf(one) : glm::vec3(1.0F)});
+                 one.size * glm::dvec3(one.breadth, one.thickness, 1.0),
+                 tints ? shade * tints->of_leaf(one, share) : glm::vec3(1.0F)});
         meshes.leaves = std::move(foliage.leaf);
     } else {
         meshes.leaves = merged_leaves(foliage.leaves, foliage.leaf);
         if (sway) meshes.leaves.sway = sway_of(foliage.leaves, foliage.leaf, *sway);
         if (tints)
-            meshes.leaves.tints = tints_of(foliage.leaves, foliage.leaf.positions.size(), *tints);
+            meshes.leaves.tints =
+                tints_of(foliage.leaves, foliage.leaf.positions.size(), *tints, share);
+        for (glm::vec3& tint : meshes.leaves.tints) tint *= shade;
     }
     finish(meshes.leaves, params);
 }
@@ -101,6 +128,10 @@ void add_leaves(TreeMeshes& meshes, const Tree& tree, const TreeParams& params,
 void refuse_impossible(const TreeParams& params) {
     refuse_impossible(params.file, params.textures);
     refuse_impossible_impostor(params.lod, params.file, params.textures);
+    if (params.lod >= first_far_lod && params.file.impostor)
+        throw Impossible("/impostor", "an impostor comes before lod=" + std::to_string(params.lod) +
+                                          "; ask for impostor=false, or for lod=" +
+                                          std::to_string(last_lod) + " or less");
     if (params.instancing == LeafInstancing::gpu && params.file.wind != WindFormat::none)
         throw Impossible("/instancing",
                          "'gpu' repeats one leaf without the weights of wind, which differ from "
@@ -130,8 +161,14 @@ struct LevelCount {
 ///
 /// all  number of leaves at LOD 0
 LevelCount expected_count(const TreeParams& params, int lod, double all) {
-    const TreeCount bark = count_of_bark(params.look.shape, lod);
     const auto placed = static_cast<std::size_t>(std::ceil(all));
+    if (lod >= first_far_lod) {
+        const FarCount far = far_count(lod - first_far_lod, placed);
+        return {{far.spikes * FarCount::spike_vertices, far.spikes * FarCount::spike_triangles},
+                far.leaves,
+                {far.leaf_vertices, far.leaf_triangles}};
+    }
+    const TreeCount bark = count_of_bark(params.look.shape, lod);
     const std::uint64_t triangles = leaf_triangles(lod, placed);
     return {{static_cast<std::uint64_t>(bark.vertices), static_cast<std::uint64_t>(bark.triangles)},
             foliage_count(lod, placed),
@@ -186,11 +223,23 @@ Wind wind_of(const TreeSpec& spec, const Atlas& atlas) {
     return spec.params.file.wind == WindFormat::none ? Wind{} : tree_meshes(bare, atlas).wind;
 }
 
+// Distance of the outlines of far levels from the true one, in the longest side of a tree: a pixel of
+// pictures of so many pixels in which they differ by a tenth, a sixth and a fifth.
+constexpr std::array<double, far_lods> far_errors = {1.0 / 40.0, 1.0 / 20.0, 1.0 / 10.0};
+
 /// Returns about how far the outline of a crown is from the true one: by how much a leaf in place of
 /// others reaches farther than they, and one of few triangles differs from its own outline, or, on a
 /// bare tree, the length of the longest edges that are left out; metres. Where that is a pixel, the
 /// silhouettes of the presets differ by a tenth, those of conifers at the coarsest level by an eighth.
-double crown_error(const TreeParams& params, const Atlas& atlas, int lod, double leaves) {
+///
+/// box  of the tree, metres
+double crown_error(const TreeParams& params, const Atlas& atlas, int lod, double leaves,
+                   const Bounds& box) {
+    if (lod >= first_far_lod) {
+        const glm::vec3 size = box.max - box.min;
+        return far_errors[static_cast<std::size_t>(lod - first_far_lod)] *
+               static_cast<double>(std::max({size.x, size.y, size.z}));
+    }
     if (leaves > 0.0) {
         const double length =
             params.size * params.look.leaves.leaf_size * leaf_of(params, atlas).shape.length;
@@ -215,10 +264,17 @@ TreeSpec at_level(TreeSpec spec) {
     params.triangles.reset();
     static_cast<void>(estimate(spec));  // throws if the tree is too large
     const double leaves = expected_tips(params.look.shape.topology) * params.look.leaves.per_tip;
-    params.lod = nearest_level(wanted, [&](int lod) {
+    const auto count_at = [&](int lod) {
         return static_cast<double>(
             expected_count(params, lod, leaves).total(params.instancing).triangles);
-    });
+    };
+    const auto off = [&](int lod) {
+        const double count = count_at(lod), target = wanted;
+        return std::max(count, target) / std::min(count, target);
+    };
+    params.lod = nearest_level(wanted, count_at);
+    for (int lod = first_far_lod; lod <= last_far_lod; ++lod)
+        if (!params.file.impostor && off(lod) < off(params.lod)) params.lod = lod;
     return spec;
 }
 
@@ -253,7 +309,7 @@ Estimate estimate(const TreeSpec& spec) {
     // mean, which matters for herbs alone.
     const double most = (tips + std::sqrt(tips)) * look.leaves.per_tip;
     Estimate e;
-    for (const int lod : levels_in_file(params.lod, params.file))
+    for (const int lod : mesh_levels_of(params))
         add_level(e, params, expected_count(params, lod, most));
     add_images(e, params);
     add_solid_bytes(e, 0, most_trunk_capsules, params.file);
@@ -267,10 +323,11 @@ std::vector<Level> levels_of(const TreeSpec& spec, const Atlas& atlas, const Bou
     const double leaves = expected_tips(params.look.shape.topology) * params.look.leaves.per_tip;
     std::vector<Level> levels;
     std::vector<double> errors;
-    for (int lod = params.lod; lod <= last_lod; ++lod) {
+    const int last = params.lod < first_far_lod ? last_lod : last_far_lod;
+    for (int lod = params.lod; lod <= last; ++lod) {
         const MeshCount count = expected_count(params, lod, leaves).total(params.instancing);
         levels.push_back({lod, count.vertices, count.triangles, 0.0});
-        errors.push_back(crown_error(params, atlas, lod, leaves));
+        errors.push_back(crown_error(params, atlas, lod, leaves, box));
     }
     if (has_impostor(params.lod, params.file))
         add_impostor_level(levels, errors, box, params.texture_size);
@@ -313,15 +370,26 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
     std::optional<TreeTints> tints;
     if (has_tints(params)) tints.emplace(tree, params.look.leaves.hue_spread, params.seed);
     std::vector<TreeMeshes> levels;
-    for (const int lod : levels_in_file(params.lod, params.file)) {
+    for (const int lod : mesh_levels_of(params)) {
         params.lod = lod;
-        Bark bark = bark_of(tree, lod);
-        flare_roots(bark, tree, params.look.shape.root_flare, params.seed);
+        Bark bark;
+        Foliage foliage;
+        if (lod >= first_far_lod) {
+            FarTree far = far_tree(tree, params.look.leaves, shape_of(leaf), params.seed,
+                                   lod - first_far_lod);
+            bark = std::move(far.bark);
+            foliage = std::move(far.foliage);
+        } else {
+            bark = bark_of(tree, lod);
+            flare_roots(bark, tree, params.look.shape.root_flare, params.seed);
+            foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);
+        }
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
         if (tints) bark.mesh.tints = tints_of(bark, *tints);
         TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);
-        add_leaves(meshes, tree, params, leaf, sway ? &*sway : nullptr, tints ? &*tints : nullptr);
+        add_leaves(meshes, std::move(foliage), params, sway ? &*sway : nullptr,
+                   tints ? &*tints : nullptr);
         levels.push_back(std::move(meshes));
     }
     return levels;

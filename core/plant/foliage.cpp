@@ -348,16 +348,20 @@ std::size_t leaf_vertices(std::size_t triangles) {
     return triangles <= 4 ? triangles + 4 : triangles + 2;
 }
 
-std::vector<PlacedLeaf> grouped(const Tree& tree, std::span<const PlacedLeaf> leaves,
-                                const Mesh& leaf, const Mesh& cover, std::size_t count,
-                                double share) {
-    std::vector<PlacedLeaf> sorted(leaves.begin(), leaves.end());
-    if (count >= sorted.size()) return sorted;
+namespace {
+
+/// Joins leaves to groups and returns what stands for each.
+///
+/// cover  called with the group, its principal axes, whether it is more than one leaf, and its first
+///        leaf
+template <class Cover>
+std::vector<PlacedLeaf> covers_of(const Tree& tree, std::vector<PlacedLeaf> sorted,
+                                  const Mesh& leaf, std::size_t count, const Cover& cover) {
     const std::vector<std::uint32_t> ranks = depth_first_ranks(tree.ramification);
     std::sort(sorted.begin(), sorted.end(), [&](const PlacedLeaf& a, const PlacedLeaf& b) {
         return std::pair(ranks[a.twig], a.id) < std::pair(ranks[b.twig], b.id);
     });
-    const SurfaceMoments of_leaf = surface_moments(leaf), of_cover = surface_moments(cover);
+    const SurfaceMoments of_leaf = surface_moments(leaf);
     const PrincipalAxes axes_of_leaf = principal_axes(of_leaf.covariance);
     std::vector<Clump> clumps;
     clumps.reserve(sorted.size());
@@ -382,9 +386,44 @@ std::vector<PlacedLeaf> grouped(const Tree& tree, std::span<const PlacedLeaf> le
         const PrincipalAxes axes = is_group || leaf_of_group.breadth != 1.0
                                        ? principal_axes(all.covariance)
                                        : axes_of(leaf_of_group, axes_of_leaf);
-        covers.push_back(cover_of(all, axes, is_group, leaf_of_group, of_cover, share));
+        covers.push_back(cover(all, axes, is_group, leaf_of_group));
     }
     return covers;
+}
+
+}  // namespace
+
+std::vector<PlacedLeaf> grouped(const Tree& tree, std::span<const PlacedLeaf> leaves,
+                                const Mesh& leaf, const Mesh& cover, std::size_t count,
+                                double share) {
+    std::vector<PlacedLeaf> sorted(leaves.begin(), leaves.end());
+    if (count >= sorted.size()) return sorted;
+    const SurfaceMoments of_cover = surface_moments(cover);
+    return covers_of(
+        tree, std::move(sorted), leaf, count,
+        [&](const Clump& all, const PrincipalAxes& axes, bool is_group, const PlacedLeaf& first) {
+            return cover_of(all, axes, is_group, first, of_cover, share);
+        });
+}
+
+std::vector<PlacedLeaf> clumped(const Tree& tree, std::span<const PlacedLeaf> leaves,
+                                const Mesh& leaf, std::size_t count, double thickness) {
+    return covers_of(
+        tree, {leaves.begin(), leaves.end()}, leaf, std::min(count, leaves.size()),
+        [&](const Clump& all, const PrincipalAxes& axes, bool, const PlacedLeaf& first) {
+            PlacedLeaf clump = first;
+            clump.along = axes.directions[0];
+            clump.up = square_to(
+                clump.along, axes.directions[2].y < 0.0 ? -axes.directions[2] : axes.directions[2]);
+            clump.place = all.middle;
+            clump.size = 2.0 * std::sqrt(axes.variances[0]);
+            const auto share = [&](std::size_t axis) {
+                return std::max(thickness, std::sqrt(axes.variances[axis] / axes.variances[0]));
+            };
+            clump.breadth = share(1);
+            clump.thickness = share(2);
+            return clump;
+        });
 }
 
 Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& shape,

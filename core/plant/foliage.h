@@ -48,6 +48,17 @@ struct Foliage {
                                               const Mesh& leaf, const Mesh& cover,
                                               std::size_t count, double share = 1.0);
 
+/// Returns clumps that stand for all leaves, each for a group of neighbours as above: copies of a body
+/// about the origin that reaches 1 along each axis. A clump lies in the principal axes of its group,
+/// with twice its standard deviations as half axes.
+///
+/// leaf       the mesh of which the leaves are copies
+/// count      at least 1
+/// thickness  of a clump at least, in its length
+[[nodiscard]] std::vector<PlacedLeaf> clumped(const Tree& tree, std::span<const PlacedLeaf> leaves,
+                                              const Mesh& leaf, std::size_t count,
+                                              double thickness);
+
 /// Returns the foliage of a tree at a level of detail. The crown has the same extent at every level:
 /// the leaves that reach farthest are always there, and no group reaches beyond them. Levels with
 /// all leaves have them at the same places in the same order.

@@ -437,13 +437,15 @@ Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf) {
             const glm::dvec3 normal(leaf.normals[i]);
             mesh.positions.emplace_back(one.at(glm::dvec3(leaf.positions[i])));
             mesh.normals.emplace_back(glm::normalize(normal.x / one.breadth * side +
-                                                     normal.y * one.up + normal.z * one.along));
+                                                     normal.y / one.thickness * one.up +
+                                                     normal.z * one.along));
         }
         for (const glm::vec4& tangent : leaf.tangents) {
             const glm::dvec3 t(tangent);
-            mesh.tangents.emplace_back(glm::vec3(glm::normalize(one.breadth * t.x * side +
-                                                                t.y * one.up + t.z * one.along)),
-                                       tangent.w);
+            mesh.tangents.emplace_back(
+                glm::vec3(glm::normalize(one.breadth * t.x * side + one.thickness * t.y * one.up +
+                                         t.z * one.along)),
+                tangent.w);
         }
         mesh.texture_coordinates.insert(mesh.texture_coordinates.end(),
                                         leaf.texture_coordinates.begin(),

@@ -295,13 +295,14 @@ struct PlacedLeaf {
     glm::dvec3 place{0.0}, along{0.0, 0.0, 1.0}, up{0.0, 1.0, 0.0};
     double size = 1.0;
     double breadth = 1.0;    ///< relative to its size
+    double thickness = 1.0;  ///< relative to its size
     std::uint32_t id = 0;    ///< key of its own random stream
     std::uint32_t twig = 0;  ///< node of the ramification that its edge enters
 
     /// Returns the position of a point of the leaf mesh.
     [[nodiscard]] glm::dvec3 at(const glm::dvec3& point) const {
-        return place +
-               size * (breadth * point.x * glm::cross(up, along) + point.y * up + point.z * along);
+        return place + size * (breadth * point.x * glm::cross(up, along) +
+                               thickness * point.y * up + point.z * along);
     }
 };
 

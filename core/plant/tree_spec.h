@@ -8,6 +8,7 @@
 
 #include "core/params/profile.h"
 #include "core/params/shared_params.h"
+#include "core/plant/far_tree.h"
 #include "core/plant/leaf_spec.h"
 #include "core/plant/tree.h"
 
@@ -45,6 +46,9 @@ constexpr const char* name(LeafInstancing instancing) {
     return nullptr;
 }
 
+/// The levels of detail after the impostor, which are meshes again.
+inline constexpr int first_far_lod = impostor_lod + 1, last_far_lod = impostor_lod + far_lods;
+
 /// The parameters of a tree. Those of its look default to those of the preset.
 struct TreeParams {
     std::uint32_t seed = 1;
@@ -77,10 +81,13 @@ struct TreeParams {
         visit(&P::autumn, info_of<L>("autumn"));
         visit(&P::lod, Info{.name = "lod",
                             .min = 0,
-                            .max = impostor_lod,
+                            .max = last_far_lod,
                             .doc = "Level of detail: the same individual with fewer branches and "
                                    "fewer, larger leaves, and smaller images. 4 is an impostor: "
-                                   "cards with pictures from all sides, for the distance.",
+                                   "cards with pictures from all sides, for the distance. 5, 6 and "
+                                   "7 are meshes for worlds with many trees far away, of about "
+                                   "400, 96 and 24 triangles; levels of a file that begins with "
+                                   "one of them go on to 7.",
                             .default_from = "profile"});
         visit(&P::triangles, triangles_info);
         visit(&P::texture_size, Info{.name = "texture_size",

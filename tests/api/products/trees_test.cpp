@@ -289,7 +289,7 @@ TEST_F(TreesTest, AllErrorsAreNamed) {
     EXPECT_TRUE(names(two, "autumn", "outside"));
     EXPECT_EQ(errors_of(two).size(), 2u);
     for (const char* query : {"order=13", "order=0", "leaf=elm", "seed=-1", "bark.ridge=brown",
-                              "lod=5", "texture_size=1000", "matrix=mine", "trunk=1e999", "age=0.5",
+                              "lod=8", "texture_size=1000", "matrix=mine", "trunk=1e999", "age=0.5",
                               "seed=1&seed=2", "leaves=3", "rows=1", "twig_length=NaN"})
         expect_problem(ask(oak + '?' + query), 400);
     const Response unknown = ask("/v1/trees/brodleaf.glb?autumn=2");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -169,6 +170,70 @@ TEST_P(EveryTree, HasTheSameSilhouetteAtEveryLevel) {
             EXPECT_LE(differ / whole, 0.1) << seed << ' ' << spec.params.lod;
         }
     }
+}
+
+// A far level covers as much as the level before it, from all sides together and nearly so from each.
+TEST_P(EveryTree, CoversAsMuchAtFarLevels) {
+    for (const std::uint32_t seed : {1U, 2U}) {
+        TreeSpec spec = order_of(GetParam(), last_lod);
+        spec.params.seed = seed;
+        const Bounds box = bounds(tree_meshes(spec, atlas()));
+        const glm::vec3 size = box.max - box.min;
+        const ImagePlane plane{0.5F * (box.min + box.max), 1.2 * std::max({size.x, size.y, size.z}),
+                               40};
+        std::vector<double> before;
+        for (const int lod : {last_lod, first_far_lod, first_far_lod + 1, last_far_lod}) {
+            spec.params.lod = lod;
+            const TreeMeshes meshes = tree_meshes(spec, atlas());
+            std::vector<double> areas;
+            // Not all of the sides for which the sizes were chosen.
+            for (const double azimuth : {0.0, 30.0, 60.0, 90.0, 120.0, 150.0}) {
+                const std::vector<double> shares = coverage(meshes, {azimuth, 0.0}, plane);
+                areas.push_back(std::accumulate(shares.begin(), shares.end(), 0.0));
+            }
+            double all = 0.0, all_before = 0.0;
+            for (std::size_t i = 0; i < before.size(); ++i) {
+                all += areas[i];
+                all_before += before[i];
+                EXPECT_NEAR(areas[i] / before[i], 1.0, 0.35) << seed << ' ' << lod << ' ' << i;
+            }
+            if (!before.empty()) {
+                EXPECT_NEAR(all / all_before, 1.0, 0.15) << seed << ' ' << lod;
+            }
+            before = std::move(areas);
+        }
+    }
+}
+
+TEST_P(EveryTree, HasFarLevelsInFilesOfSeveralLevels) {
+    TreeSpec spec = order_of(GetParam(), first_far_lod);
+    const Grown one = grow_tree(spec, atlas());
+    EXPECT_LE(one.triangles, 400U);
+    const ReadScene alone = expect_scene(joined(one.glb));
+    EXPECT_EQ(alone.images, (std::vector<std::array<int, 2>>(6, {16, 16})));
+    spec.params.file.lods = Lods::nodes;
+    const std::vector<TreeMeshes> levels = level_meshes(spec, atlas());
+    ASSERT_EQ(levels.size(), static_cast<std::size_t>(far_lods));
+    const Grown all = grow_tree(spec, atlas());
+    EXPECT_LE(all.triangles, 400U + 96U + 24U);
+    const ReadScene found = expect_scene(joined(all.glb));
+    ASSERT_EQ(found.meshes.size(), levels.size());
+    const Bounds box = bounds(levels[0]);
+    double before = 2.0;
+    for (const Level& level : levels_of(spec, atlas(), box)) {
+        EXPECT_LT(level.screen_coverage, before);
+        EXPECT_GT(level.screen_coverage, 0.0);
+        before = level.screen_coverage;
+    }
+    const Estimate e = estimate(spec);
+    EXPECT_GE(e.triangles, all.triangles);
+    EXPECT_GE(e.vertices, all.vertices);
+    spec.params.file.impostor = true;
+    EXPECT_TRUE(names(refusal([&] { (void)estimate(spec); }), "/impostor", "lod=5"));
+    // What few triangles are nearest to.
+    TreeSpec few = order_of(GetParam());
+    few.params.triangles = 100;
+    EXPECT_EQ(at_level(few).params.lod, first_far_lod + 1);
 }
 
 // The leaves that reach farthest are at every level, and no other reaches beyond them.
