@@ -83,8 +83,8 @@ enum Purpose : std::uint32_t {
     ground = 141,          ///< soil, litter and strands at a foot
     ground_paint = 144,
     species_damage = 145,  ///< seed of the damage of one species of an individual
-    tree_tints = 146,   ///< hue and brightness of each branch of a tree, and of each leaf
-    leaf_damage = 147,  ///< where insects have eaten a leaf
+    tree_tints = 146,      ///< hue and brightness of each branch of a tree, and of each leaf
+    leaf_damage = 147,     ///< where insects have eaten a leaf
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins

@@ -141,9 +141,9 @@ inline constexpr int leaf_lods = 4;
 /// Returns the whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face
 /// up.
 ///
-/// lod      0: about 2,000 triangles, and up to 240 for each place that is eaten; 1: about 500; 2: the polygon of the source; 3: a fan of
-///          most_foliage_triangles of the same length and width, or the polygon if it has no more
-///          triangles. Of a compound leaf each leaflet is 0: the polygon, if all have no more than
+/// lod      0: about 2,000 triangles, and up to 240 for each place that is eaten; 1: about 500; 2: the
+///          polygon of the source; 3: a fan of most_foliage_triangles of the same length and width, or
+///          the polygon if it has no more triangles. Of a compound leaf each leaflet is 0: the polygon, if all have no more than
 ///          most_leaflet_triangles together; 1: a fan; 2 and 3: a kite
 /// size     scale of the whole
 /// seed     determines where the leaf is eaten
