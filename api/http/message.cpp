@@ -26,7 +26,8 @@ constexpr Term terms[] = {
     {&Cost::vertices, 0.2},           // 0.15 for one that is only outline, 0.3 for scales and warts
     {&Cost::placed_vertices, 0.045},  // a tree of 240,000 takes 11 to 18 ms
     {&Cost::twigs, 1.6},
-    {&Cost::members, 20.0},    // 5 in a troop, 30 in a tuft
+    {&Cost::members, 10.0},
+    {&Cost::member_pairs, 0.65},
     {&Cost::solids, 11000.0},  // of a bolete 8 ms, of a chanterelle 19 ms
     {&Cost::atlases, 500.0},
     {&Cost::texels, 0.01},

@@ -54,6 +54,7 @@ struct Cost {
     std::uint64_t placed_vertices = 0;  ///< of leaves, trees and colonies
     std::uint64_t twigs = 0;            ///< of a tree before level of detail
     std::uint64_t members = 0;          ///< individuals of a colony that are placed
+    std::uint64_t member_pairs = 0;     ///< of a tuft, whose stems are moved apart: members squared
     std::uint64_t solids = 0;           ///< individuals that solids for collision are fitted to
     std::uint64_t atlases = 0;          ///< of mushrooms: painted, or blended from others
     std::uint64_t texels = 0;           ///< of all images of these atlases

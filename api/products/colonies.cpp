@@ -89,6 +89,16 @@ std::optional<WoodPaint> wood_paint_of(const ColonySpec& spec, const Atlas& atla
     }
 }
 
+/// Returns the habit of a colony; that of a troop if the request is invalid, which the estimate
+/// reports.
+Habit habit_of(const ColonySpec& spec, const Atlas& atlas) {
+    try {
+        return colony_traits(spec, atlas).habit;
+    } catch (const InvalidInput&) {
+        return Habit::troop;
+    }
+}
+
 /// Returns the cost of generating a request with this estimate, without that of its correspondence.
 Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
              const Atlas& atlas) {
@@ -98,6 +108,7 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     cost.vertices = distinct * spacing_vertices;
     cost.placed_vertices = estimated.vertices;
     cost.members = static_cast<std::uint64_t>(spec.params.count);
+    if (habit_of(spec, atlas) == Habit::tuft) cost.member_pairs = cost.members * cost.members;
     if (spec.params.file.collision != CollisionFormat::none) cost.solids = distinct;
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;

@@ -106,9 +106,9 @@ void add_spike(const Tree& tree, const Axis& axis, Bark& bark) {
     for (int k = 0; k < 3; ++k)
         add(to, out((k + 0.5) / 3.0) + slope * along, {(static_cast<float>(k) + 0.5F) / 3.0F, 1.0F},
             axis.last);
+    constexpr std::array<glm::vec2, 3> end = {{{0.0F, 0.0F}, {0.1F, 0.0F}, {0.0F, 0.1F}}};
     for (int k = 0; k < 3; ++k)
-        add(from + radius * out(k / 3.0), -along,
-            {0.1F * static_cast<float>(k % 2), 0.1F * static_cast<float>(k / 2)}, axis.first);
+        add(from + radius * out(k / 3.0), -along, end[static_cast<std::size_t>(k)], axis.first);
     for (std::uint32_t k = 0; k < 3; ++k)
         for (const std::uint32_t corner : {k, k + 1, k + 4}) mesh.indices.push_back(shift + corner);
     for (const std::uint32_t corner : {7U, 9U, 8U}) mesh.indices.push_back(shift + corner);
