@@ -88,9 +88,17 @@ struct GlbPrimitive {
     std::vector<std::size_t> variant_materials = {};
 };
 
+/// What a mesh is of its product: close-ups look at foliage or bodies, and not at what carries them.
+enum class GlbRole {
+    body,     ///< a fruit body, a trunk, a leaf of its own
+    foliage,  ///< leaves and cards of a plant
+    carrier   ///< wood, or roots and stems of a colony
+};
+
 struct GlbMesh {
     std::string name;
     std::vector<GlbPrimitive> primitives;  ///< all with the same number of targets
+    GlbRole role = GlbRole::body;          ///< for pictures, not part of the file
 };
 
 /// The transform of an instance.

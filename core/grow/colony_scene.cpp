@@ -47,11 +47,13 @@ void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin, const M
                 std::span<const Mesh> models, std::size_t wood_material, const std::string& name) {
     if (!wood.positions.empty()) {
         scene.nodes.push_back({.name = name + "_wood", .mesh = scene.meshes.size()});
-        scene.meshes.push_back({name + "_wood", {{&wood, wood_material, {}, {}}}});
+        scene.meshes.push_back(
+            {name + "_wood", {{&wood, wood_material, {}, {}}}, GlbRole::carrier});
     }
     if (!skin.positions.empty()) {
         scene.nodes.push_back({.name = name + "_stems", .mesh = scene.meshes.size()});
-        scene.meshes.push_back({name + "_stems", {{&skin, 0, {}, variant_materials(scene)}}});
+        scene.meshes.push_back(
+            {name + "_stems", {{&skin, 0, {}, variant_materials(scene)}}, GlbRole::carrier});
     }
     std::vector<std::size_t> mesh_of(models.size(), 0);
     for (std::size_t i = 0; i < models.size(); ++i) {

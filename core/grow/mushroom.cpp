@@ -88,16 +88,17 @@ void add_levels(GlbScene& scene, const MushroomSpec& spec,
                 std::span<const Level> levels) {
     const Lods lods = spec.params.file.lods;
     if (wood.empty()) return add_levels(scene, product_name(spec), primitives, levels, lods);
-    const auto add = [&](const std::string& name, const std::vector<GlbPrimitive>& of_mesh) {
+    const auto add = [&](const std::string& name, const std::vector<GlbPrimitive>& of_mesh,
+                         GlbRole role) {
         scene.nodes.push_back({.name = name, .mesh = scene.meshes.size()});
-        scene.meshes.push_back({name, of_mesh});
+        scene.meshes.push_back({name, of_mesh, role});
     };
-    add_grouped_levels(scene, product_name(spec), levels, lods,
-                       [&](std::size_t i, const std::string& name) {
-                           add(name + "_fruitbody", primitives[i]);
-                           if (i < wood.size())
-                               add(name + "_wood", {{&wood[i], wood_material, {}, {}}});
-                       });
+    add_grouped_levels(
+        scene, product_name(spec), levels, lods, [&](std::size_t i, const std::string& name) {
+            add(name + "_fruitbody", primitives[i], GlbRole::body);
+            if (i < wood.size())
+                add(name + "_wood", {{&wood[i], wood_material, {}, {}}}, GlbRole::carrier);
+        });
 }
 
 }  // namespace

@@ -207,13 +207,13 @@ void add_instanced(GlbScene& scene, const TreeMeshes& meshes, const std::string&
     if (meshes.places.empty()) return;
     scene.nodes.push_back(
         {.name = name + "_leaves", .mesh = scene.meshes.size(), .instances = meshes.places});
-    scene.meshes.push_back({name + "_leaf", {{&meshes.leaves, 1, {}}}});
+    scene.meshes.push_back({name + "_leaf", {{&meshes.leaves, 1, {}}}, GlbRole::foliage});
 }
 
 /// Adds the mesh and the node of an impostor.
 void add_cards(GlbScene& scene, const std::vector<GlbPrimitive>& cards, const std::string& name) {
     scene.nodes.push_back({.name = name + "_cards", .mesh = scene.meshes.size()});
-    scene.meshes.push_back({name + "_cards", cards});
+    scene.meshes.push_back({name + "_cards", cards, GlbRole::foliage});
 }
 
 /// Returns the wind of a tree of which no mesh is built.

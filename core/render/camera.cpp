@@ -31,11 +31,21 @@ glm::vec3 Camera::seen(const glm::vec3& point) const {
     return {glm::dot(p, axes.right), glm::dot(p, axes.up), glm::dot(p, axes.forward)};
 }
 
+Camera camera_with(const CameraAxes& axes, double aspect) {
+    const auto [sine, cosine] = sine_cosine(radians(half_angle_deg));
+    const double shorter = sine / cosine;
+    return {axes, glm::vec3(0.0F), static_cast<float>(shorter * std::max(aspect, 1.0)),
+            static_cast<float>(shorter * std::max(1.0 / aspect, 1.0))};
+}
+
 glm::dvec2 angles_of(const PictureParams& params, int frame) {
     constexpr double three_quarter = 30.0, elevation = 18.0;
     const double turn = params.turn_deg;
     switch (params.view) {
         case View::three_quarter:
+        case View::margin:
+        case View::underside:
+        case View::base:
             break;
         case View::front:
             return {turn, 3.0};

@@ -27,6 +27,7 @@ struct Camera {
     CameraAxes axes;
     glm::vec3 position{0.0F};
     float tangent_x = 0.25F, tangent_y = 0.25F;  ///< of half the angles of view
+    float nearest = 0.0F;  ///< what is nearer is left out; 0 if the whole scene is in the image
 
     /// Returns a point of the scene in the axes of the camera: right, up, forward.
     [[nodiscard]] glm::vec3 seen(const glm::vec3& point) const;
@@ -44,9 +45,14 @@ struct Camera {
     }
 };
 
+/// Returns a camera at the origin with the angles of view of all pictures.
+///
+/// aspect  width by height of the image
+[[nodiscard]] Camera camera_with(const CameraAxes& axes, double aspect);
+
 /// Returns azimuth and elevation of a view, degrees.
 ///
-/// frame  of a turntable, 0..7; 0 for all other views
+/// frame  of a turntable, 0..7; 0 for all other views, of which close-ups have elevations of their own
 [[nodiscard]] glm::dvec2 angles_of(const PictureParams& params, int frame);
 
 /// Returns a camera for each of some axes, all at the same place relative to their own axes: the

@@ -49,7 +49,7 @@ void add_mesh(DrawList& list, const GlbMesh& mesh, const Affine& map,
               const glm::vec3& tint = glm::vec3(1.0F)) {
     const Placement placement = placement_of(map);
     for (const GlbPrimitive& primitive : mesh.primitives)
-        list.draws.push_back({primitive.mesh, primitive.material, placement, tint});
+        list.draws.push_back({primitive.mesh, primitive.material, placement, tint, mesh.role});
 }
 
 void add_node(DrawList& list, const GlbScene& scene, const GlbNode& node, const Affine& parent) {
@@ -90,6 +90,7 @@ DrawList draw_list(const GlbScene& scene, const Parallel& parallel, int side) {
             add_node(list, scene, scene.nodes[i], Affine());
     if (list.triangles() == 0) throw GenerationError("a scene to draw has triangles");
     list.box = box_of(list.draws);
+    list.stands_on_ground = scene.stands_on_ground;
 
     list.materials.resize(scene.materials.size());
     std::vector<std::function<void()>> tasks;

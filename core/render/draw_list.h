@@ -29,6 +29,7 @@ struct Draw {
     std::size_t material = 0;
     Placement placement;
     glm::vec3 tint{1.0F};  ///< factor of the base colour
+    GlbRole role = GlbRole::body;
 };
 
 /// A material; without images it is white and rough.
@@ -45,6 +46,7 @@ struct DrawList {
     std::vector<Draw> draws;
     std::vector<DrawMaterial> materials;
     Bounds box;  ///< of all vertices
+    bool stands_on_ground = true;
 
     [[nodiscard]] std::uint64_t triangles() const;
 };

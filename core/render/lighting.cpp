@@ -22,7 +22,7 @@ namespace {
 constexpr glm::vec3 lamp_strength(0.95F, 0.92F, 0.86F);
 constexpr glm::vec3 back_lamp_strength(0.34F, 0.36F, 0.40F);
 constexpr glm::vec3 zenith(0.46F, 0.50F, 0.56F), horizon(0.40F, 0.40F, 0.40F),
-    ground(0.15F, 0.135F, 0.11F);
+    ground(0.24F, 0.22F, 0.19F);
 
 /// Light of a pale reflector that lies below the scene in place of the ground when it is seen from below,
 /// as photographers light gills and pores; the camera's rise, as a sine, from which on it is there.
@@ -30,10 +30,10 @@ constexpr glm::vec3 reflector(0.50F, 0.49F, 0.47F);
 constexpr double reflector_rise = 0.3;
 
 /// Lights of the lamp, of the lamp behind, of the sky and of the ground.
-constexpr int lamp_parts = 8, back_lamp_parts = 2, sky_parts = 20, ground_parts = 8;
+constexpr int lamp_parts = 12, back_lamp_parts = 2, sky_parts = 20, ground_parts = 8;
 
 /// Half the angle under which the lamps are seen, radians.
-constexpr double lamp_radius = 0.13, back_lamp_radius = 0.2;
+constexpr double lamp_radius = 0.19, back_lamp_radius = 0.2;
 
 /// Returns a point of a spiral in a disc of radius 1: its radius and angle.
 glm::dvec2 in_disc(int i, int count) {

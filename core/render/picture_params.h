@@ -5,8 +5,9 @@
 
 namespace sporeprint {
 
-/// Where the camera is. A turntable is a sheet of eight views from all sides.
-enum class View { three_quarter, front, top, below, turntable };
+/// Where the camera is. A turntable is a sheet of eight views from all sides; margin, underside and base
+/// are close-ups.
+enum class View { three_quarter, front, top, below, turntable, margin, underside, base };
 
 constexpr const char* name(View view) {
     switch (view) {
@@ -20,6 +21,12 @@ constexpr const char* name(View view) {
             return "below";
         case View::turntable:
             return "turntable";
+        case View::margin:
+            return "margin";
+        case View::underside:
+            return "underside";
+        case View::base:
+            return "base";
     }
     return nullptr;
 }
@@ -69,7 +76,9 @@ struct PictureParams {
               Info{.name = "view",
                    .doc = "From above and one side, from the front, straight from above, from "
                           "below to show the hymenium, or a sheet of four by two views from all "
-                          "sides. The camera comes as near as the picture allows.",
+                          "sides, where the camera comes as near as the picture allows; or a "
+                          "close-up: 5 cm at the margin, 6 cm of the underside, 8 cm at the base, "
+                          "more of the base of what is taller than 64 cm.",
                    .group = "picture"});
         visit(&P::turn_deg, Info{.name = "turn_deg",
                                  .unit = "deg",

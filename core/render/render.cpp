@@ -14,7 +14,10 @@
 #include "core/math/srgb_table.h"
 #include "core/problems.h"
 #include "core/render/camera.h"
+#include "core/render/clipping.h"
+#include "core/render/close_up.h"
 #include "core/render/draw_list.h"
+#include "core/render/ground_shadow.h"
 #include "core/render/lighting.h"
 #include "core/render/shading.h"
 #include "core/render/visibility.h"
@@ -31,11 +34,17 @@ constexpr int samples = 2;
 /// Returns true for a picture that does not resolve the edges of the shadows of single lights.
 bool is_small(const PictureParams& params) { return params.width * params.height <= 320 * 320; }
 
-/// Returns the side of the shadow maps of lamps, texels.
-int lamp_side(const PictureParams& params) { return is_small(params) ? 160 : 256; }
+/// Returns the side of the shadow maps of lamps, texels. A close-up shows a part of each map.
+int lamp_side(const PictureParams& params) {
+    const int side = is_small(params) ? 160 : 256;
+    return is_close_up(params.view) ? 4 * side : side;
+}
 
 /// Returns the side of the shadow maps of the surroundings, texels.
-int surroundings_side(const PictureParams& params) { return is_small(params) ? 80 : 128; }
+int surroundings_side(const PictureParams& params) {
+    const int side = is_small(params) ? 80 : 128;
+    return is_close_up(params.view) ? 3 * side : side;
+}
 
 /// Rows of pixels that are shaded by one task, and bands in which triangles are found.
 constexpr int band = 16, visible_bands = 4;
@@ -55,33 +64,51 @@ std::vector<SnappedCorner> corners_of(const std::vector<glm::vec3>& seen, const 
     const float scale_x = middle_x / camera.tangent_x, scale_y = middle_y / camera.tangent_y;
     std::vector<SnappedCorner> corners(seen.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const float nearness = 1.0F / seen[i].z;  // the camera is outside of the scene
+        // The camera is outside of what is in the image; what is nearer is in no triangle.
+        const float nearness = 1.0F / std::max(seen[i].z, 1e-9F);
         corners[i] = snapped({middle_x + seen[i].x * nearness * scale_x,
                               middle_y - seen[i].y * nearness * scale_y, nearness});
     }
     return corners;
 }
 
+/// The triangles of a draw in an image of samples.
+struct ImageTriangles {
+    std::vector<SnappedCorner> corners;
+    ClippedTriangles parts;  ///< of a camera that sees a part of the scene
+
+    ImageTriangles() = default;
+    ImageTriangles(const std::vector<glm::vec3>& seen, std::span<const std::uint32_t> indices,
+                   const Camera& camera, int columns, int rows) {
+        if (camera.nearest > 0.0F) parts = clipped(seen, indices, camera);
+        corners = corners_of(camera.nearest > 0.0F ? parts.corners : seen, camera, columns, rows);
+    }
+};
+
 SeenScene visible(const DrawList& list, const Camera& camera, int columns, int rows,
                   const Parallel& parallel) {
     SeenScene found(columns, rows, list.draws.size());
-    std::vector<std::vector<SnappedCorner>> corners(list.draws.size());
+    std::vector<ImageTriangles> images(list.draws.size());
     std::vector<std::function<void()>> tasks;
-    for (std::size_t d = 0; d < corners.size(); ++d)
+    for (std::size_t d = 0; d < images.size(); ++d)
         tasks.emplace_back([&, d] {
             const Draw& draw = list.draws[d];
             found.seen[d].reserve(draw.mesh->positions.size());
             for (const glm::vec3& at : draw.mesh->positions)
                 found.seen[d].push_back(camera.seen(draw.placement.point(at)));
-            corners[d] = corners_of(found.seen[d], camera, columns, rows);
+            images[d] = ImageTriangles(found.seen[d], draw.mesh->indices, camera, columns, rows);
         });
     parallel(tasks);
     tasks.clear();
     for (int part = 0; part < visible_bands; ++part)
         tasks.emplace_back(
             [&, from = rows * part / visible_bands, to = rows * (part + 1) / visible_bands] {
-                for (std::size_t d = 0; d < corners.size(); ++d)
-                    found.show(d, list.draws[d].mesh->indices, corners[d], from, to);
+                for (std::size_t d = 0; d < images.size(); ++d) {
+                    const ClippedTriangles& parts = images[d].parts;
+                    const bool is_whole = camera.nearest <= 0.0F;
+                    found.show(d, is_whole ? list.draws[d].mesh->indices : parts.indices,
+                               images[d].corners, from, to, parts.of);
+                }
             });
     parallel(tasks);
     return found;
@@ -197,8 +224,11 @@ class Facet {
             const glm::vec2 a = at(0), b = at(1) - a, c = at(2) - a;
             return std::abs(b.x * c.y - b.y * c.x);
         };
-        const float screen = area(
-            [&](std::size_t i) { return glm::vec2(corners_[i]) * scale * (1.0F / corners_[i].z); });
+        // A corner may be behind the camera of a close-up.
+        const float near = 0.1F * std::max({corners_[0].z, corners_[1].z, corners_[2].z});
+        const float screen = area([&](std::size_t i) {
+            return glm::vec2(corners_[i]) * scale * (1.0F / std::max(corners_[i].z, near));
+        });
         const float image =
             area([&](std::size_t i) { return draw_->mesh->texture_coordinates[index_[i]]; });
         const auto side = static_cast<float>(material_->base_color.side());
@@ -213,82 +243,6 @@ class Facet {
     static glm::vec3 normalised(const glm::vec3& v, const glm::vec3& otherwise) {
         const float square = glm::dot(v, v);
         return square > 1e-20F ? v * (1.0F / std::sqrt(square)) : otherwise;
-    }
-};
-
-/// The shadow of a scene on the plane y = 0, as darkness 0..1 on a grid around it.
-class GroundShadow {
-  public:
-    GroundShadow() = default;
-    /// The light that falls on the ground: lights from above and their shadows.
-    struct Falling {
-        const std::vector<Light>& lights;
-        const std::vector<ShadowMap>& shadows;
-        bool is_sharp = false;  ///< shadows of lamps have edges, which are interpolated
-
-        [[nodiscard]] float light_at(std::size_t i, const glm::vec3& at) const {
-            if (is_sharp) return shadows[i].light_at(at, glm::vec3(0.0F));
-            return shadows[i].reaches(at, glm::vec3(0.0F)) ? 1.0F : 0.0F;
-        }
-    };
-
-    GroundShadow(const Bounds& box, const std::array<Falling, 2>& light, const Parallel& parallel) {
-        const float height = std::max(box.max.y, 0.0F);
-        const float reach =
-            1.5F * height + 0.2F * std::max(box.max.x - box.min.x, box.max.z - box.min.z);
-        from_ = glm::vec2(box.min.x - reach, box.min.z - reach);
-        const glm::vec2 to(box.max.x + reach, box.max.z + reach);
-        step_ = (to - from_) * (1.0F / static_cast<float>(side - 1));
-        float all = 0.0F;
-        for (const Falling& some : light)
-            for (const Light& one : some.lights) all += falling(one);
-        darkness_.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-        std::vector<std::function<void()>> tasks;
-        tasks.reserve(static_cast<std::size_t>(side));
-        for (int row = 0; row < side; ++row)
-            tasks.emplace_back([&, row] {
-                for (int column = 0; column < side; ++column) {
-                    const glm::vec3 at(from_.x + step_.x * static_cast<float>(column), 0.0F,
-                                       from_.y + step_.y * static_cast<float>(row));
-                    float lit = 0.0F;
-                    for (const Falling& some : light)
-                        for (std::size_t i = 0; i < some.lights.size(); ++i)
-                            if (some.lights[i].direction.y > 0.0F)
-                                lit += falling(some.lights[i]) * some.light_at(i, at);
-                    darkness_[static_cast<std::size_t>(row * side + column)] =
-                        std::clamp(1.0F - lit / all, 0.0F, 1.0F);
-                }
-            });
-        parallel(tasks);
-    }
-
-    /// Returns true for a picture without ground.
-    [[nodiscard]] bool empty() const { return darkness_.empty(); }
-
-    [[nodiscard]] float at(const glm::vec3& point) const {
-        const float x = (point.x - from_.x) / step_.x, y = (point.z - from_.y) / step_.y;
-        const auto last = static_cast<float>(side - 1);
-        if (!(x >= 0.0F && y >= 0.0F && x < last && y < last)) return 0.0F;
-        const int column = static_cast<int>(x), row = static_cast<int>(y);
-        const float part_x = x - static_cast<float>(column), part_y = y - static_cast<float>(row);
-        const float* const upper = &darkness_[static_cast<std::size_t>(row * side + column)];
-        const float* const lower = upper + side;
-        // The grid ends where hardly any light is stopped; the rest fades out.
-        const float edge = std::min({x, y, last - x, last - y}) / (0.15F * last);
-        return std::min(edge, 1.0F) *
-               ((upper[0] * (1.0F - part_x) + upper[1] * part_x) * (1.0F - part_y) +
-                (lower[0] * (1.0F - part_x) + lower[1] * part_x) * part_y);
-    }
-
-  private:
-    static constexpr int side = 72;
-    glm::vec2 from_{0.0F}, step_{1.0F};
-    std::vector<float> darkness_;
-
-    /// Returns how much of a light falls on level ground.
-    static float falling(const Light& light) {
-        const float total = light.strength.x + light.strength.y + light.strength.z;
-        return std::max(light.direction.y, 0.0F) * total;
     }
 };
 
@@ -317,10 +271,8 @@ class Drawing {
           scale_(glm::vec2(params.width, params.height) * 0.5F /
                  glm::vec2(camera.tangent_x, camera.tangent_y)) {
         if (has_ground)
-            ground_ = GroundShadow(
-                list.box,
-                {{{lights_.lamps, lamp_shadows_, true}, {lights_.surroundings, shadows_}}},
-                parallel);
+            ground_ = GroundShadow(list.box, {lights_.lamps, lamp_shadows_},
+                                   {lights_.surroundings, shadows_}, parallel);
     }
 
     static int detail_of_lights(const PictureParams& params, std::uint64_t triangles) {
@@ -479,6 +431,21 @@ class Drawing {
     }
 };
 
+/// Returns the camera of each view of a picture.
+///
+/// lowest  see fitted_cameras()
+std::vector<Camera> cameras_of(const DrawList& list, const PictureParams& params, int frames,
+                               float lowest) {
+    const double aspect = static_cast<double>(params.width) / static_cast<double>(params.height);
+    if (is_close_up(params.view)) return {camera_of(close_up_of(list, params), aspect)};
+    std::vector<CameraAxes> axes;
+    for (int frame = 0; frame < frames; ++frame) {
+        const glm::dvec2 angles = angles_of(params, frame);
+        axes.push_back(camera_axes(angles.x, angles.y));
+    }
+    return fitted_cameras(list, axes, aspect, lowest);
+}
+
 }  // namespace
 }  // namespace render
 
@@ -490,28 +457,25 @@ std::size_t pictured_lights(const PictureParams& params, std::uint64_t triangles
 
 RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Parallel& parallel) {
     require_valid(params);
+    // A close-up shows a part of each image, at its full size.
     const render::DrawList list =
-        render::draw_list(scene, parallel, std::max(params.width, params.height));
+        render::draw_list(scene, parallel,
+                          render::is_close_up(params.view) ? largest_upload_side
+                                                           : std::max(params.width, params.height));
     if (list.triangles() > most_pictured_triangles)
         throw Impossible("/lod", std::to_string(list.triangles()) +
                                      " triangles would be drawn; at most " +
                                      std::to_string(most_pictured_triangles) + " are. Raise lod");
     const bool is_sheet = params.view == View::turntable;
     const int columns = is_sheet ? turntable_columns : 1, rows = is_sheet ? turntable_rows : 1;
-    std::vector<render::CameraAxes> axes;
-    for (int frame = 0; frame < columns * rows; ++frame) {
-        const glm::dvec2 angles = render::angles_of(params, frame);
-        axes.push_back(render::camera_axes(angles.x, angles.y));
-    }
     RgbaImage image{params.width * columns, params.height * rows, {}};
     image.rgba.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height) * 4);
     // Of what stands on the ground, most is above it.
-    const bool has_ground =
-        scene.stands_on_ground && params.view != View::below && list.box.min.y > -list.box.max.y;
-    const std::vector<render::Camera> cameras = render::fitted_cameras(
-        list, axes, static_cast<double>(params.width) / static_cast<double>(params.height),
-        has_ground ? 0.0F : list.box.min.y);
+    const bool has_ground = scene.stands_on_ground && params.view != View::below &&
+                            params.view != View::underside && list.box.min.y > -list.box.max.y;
+    const std::vector<render::Camera> cameras =
+        render::cameras_of(list, params, columns * rows, has_ground ? 0.0F : list.box.min.y);
     const SrgbTable& srgb = srgb_table();
     for (int frame = 0; frame < columns * rows; ++frame)
         render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,

@@ -44,9 +44,17 @@ float mirrored(float seen, float roughness) {
 /// Cosine beyond the terminator up to which light that enters on the lit side of thin flesh still leaves.
 constexpr float scattered = 0.25F;
 
-/// Of the light that neighbouring skin stops, a part arrives after it was reflected once or twice, in
-/// the colour of the skin: of the surroundings and of the lamps.
-constexpr float returned_sky = 0.45F, returned_lamps = 0.2F;
+/// Part of the light of the surroundings reflected by neighbouring skin that leaves a hollow; the rest
+/// meets skin again. Of the light of lamps, a part arrives after one reflection: what stops it is
+/// often far away.
+constexpr float leaves_hollow = 0.45F, returned_lamps = 0.2F;
+
+/// Returns the part of the light of the surroundings stopped by neighbouring skin of the same colour
+/// that arrives after all: the sum over one, two and more reflections. Hollows in white flesh are
+/// bright, and those in coloured flesh are richer in their colour than its outside.
+glm::vec3 returned_sky(const glm::vec3& color) {
+    return color * leaves_hollow / (glm::vec3(1.0F) - color * (1.0F - leaves_hollow));
+}
 
 /// Part of the light that enters thin flesh which leaves it again where it entered, as its scattering
 /// lets it: it shines no less in front than thick flesh of the same colour by all that passes.
@@ -57,8 +65,8 @@ constexpr float scattered_back = 0.5F;
 glm::vec3 through_neighbours(const SurfacePoint& point, const glm::vec3& of_sky,
                              const glm::vec3& of_lamps) {
     const glm::vec3 passing = point.tint * point.transmission;
-    return point.base_color * (of_sky * (passing + glm::vec3(returned_sky)) +
-                               of_lamps * (passing + glm::vec3(returned_lamps)));
+    return of_sky * (point.base_color * passing + returned_sky(point.base_color)) +
+           point.base_color * of_lamps * (passing + glm::vec3(returned_lamps));
 }
 
 /// Returns the light that arrives behind a surface: of a group of lamps, and of the surroundings.
@@ -137,13 +145,15 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
         shine += arriving * highlights;
     }
     // The surroundings were summed for the smooth normal; the sky is brighter than the ground.
-    const float bump = brightness(soft) / brightness(point.smooth_normal) * point.occlusion;
-    const glm::vec3 around = point.ambient.arriving * bump;
-    const glm::vec3 bounced = point.base_color * (point.ambient.stopped * (returned_sky * bump) +
-                                                  stopped * returned_lamps);
+    const float bump = brightness(soft) / brightness(point.smooth_normal);
+    const glm::vec3 around = point.ambient.arriving * (bump * point.occlusion);
+    const glm::vec3 in_hollows =
+        (point.ambient.stopped + point.ambient.arriving * (1.0F - point.occlusion)) * bump;
+    const glm::vec3 bounced =
+        in_hollows * returned_sky(point.base_color) + point.base_color * stopped * returned_lamps;
     matt += around + bounced;
     if (point.transmission > 0.0F) {
-        matt += through_neighbours(point, point.ambient.stopped * bump, stopped) - bounced;
+        matt += through_neighbours(point, in_hollows, stopped) - bounced;
         matt *= 1.0F - (1.0F - scattered_back) * point.transmission;
         matt += point.tint * point.transmission * arriving_behind(point, lamps, group, weight);
     }

@@ -10,7 +10,8 @@ Visibility::Visibility(int columns, int rows)
       corner(nearness.size()) {}
 
 void Visibility::show(std::size_t of_draw, std::span<const std::uint32_t> indices,
-                      std::span<const SnappedCorner> corners, int from, int to) {
+                      std::span<const SnappedCorner> corners, int from, int to,
+                      std::span<const std::uint32_t> of) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
         rasterize(
             corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]], width, to,
@@ -19,7 +20,7 @@ void Visibility::show(std::size_t of_draw, std::span<const std::uint32_t> indice
                 if (near <= nearness[at]) return;
                 nearness[at] = near;
                 draw[at] = static_cast<std::uint32_t>(of_draw);
-                corner[at] = static_cast<std::uint32_t>(i);
+                corner[at] = of.empty() ? static_cast<std::uint32_t>(i) : of[i / 3];
             },
             from);
 }

@@ -27,8 +27,10 @@ struct Visibility {
     ///
     /// corners   of its vertices, whose third component is their nearness
     /// from, to  rows of samples; others do not change
+    /// of        for parts of triangles, the first corner of the whole one; none for whole ones
     void show(std::size_t of_draw, std::span<const std::uint32_t> indices,
-              std::span<const SnappedCorner> corners, int from, int to);
+              std::span<const SnappedCorner> corners, int from, int to,
+              std::span<const std::uint32_t> of = {});
 
     [[nodiscard]] bool shows(std::size_t at) const { return nearness[at] > nothing; }
     [[nodiscard]] bool same(std::size_t a, std::size_t b) const {

@@ -41,6 +41,13 @@ TEST(Render, ABallCoversADiscOfNineTenthsOfTheWidth) {
     EXPECT_EQ(pixel(image, 64, 64)[3], 255);
 }
 
+// Each pixel of a close-up of a wall much larger than its frame shows the wall.
+TEST(Render, ACloseUpShowsPartsOfTrianglesWithoutGaps) {
+    const Mesh mesh = ball(1.0F, {0.0F, 2.0F, 0.0F}, 12, 6);
+    const RgbaImage image = rendered(scene_of(mesh), square(96, View::margin));
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) ASSERT_EQ(image.rgba[i], 255) << i;
+}
+
 TEST(Render, LightComesFromTheUpperLeft) {
     const Mesh mesh = ball(1.0F, {0.0F, 9.0F, 0.0F});
     const RgbaImage image = rendered(scene_of(mesh), square(96, View::front));
@@ -122,7 +129,8 @@ TEST(Render, EveryViewOfEverySpeciesShowsSomethingElse) {
         std::set<Bytes> pictures;
         Extras extras;
         extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
-            for (const View view : {View::three_quarter, View::front, View::top, View::below}) {
+            for (const View view : {View::three_quarter, View::front, View::top, View::below,
+                                    View::margin, View::underside, View::base}) {
                 const RgbaImage image = rendered(scene, square(48, view));
                 EXPECT_GT(share_above(image, 200), 0.01) << id << ' ' << name(view);
                 pictures.insert(image.rgba);
@@ -130,7 +138,7 @@ TEST(Render, EveryViewOfEverySpeciesShowsSomethingElse) {
             return {};
         };
         (void)grow_mushroom(spec, *built_in_atlas(), extras);
-        EXPECT_EQ(pictures.size(), 4u) << id;
+        EXPECT_EQ(pictures.size(), 7u) << id;
     }
 }
 

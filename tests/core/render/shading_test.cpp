@@ -87,6 +87,25 @@ TEST(Shading, ThinFleshReflectsLessThanThickFleshOfItsColour) {
     EXPECT_GT(thin, 0.5F * thick);
 }
 
+// Light that white flesh stops returns nearly whole after many reflections; black flesh returns none.
+TEST(Shading, HollowsInBrightFleshAreBrighterThanOneReflectionMakesThem) {
+    const auto seen = [](float color, float occlusion) {
+        SurfacePoint point;
+        point.base_color = glm::vec3(color);
+        point.ambient.arriving = glm::vec3(1.0F);
+        point.occlusion = occlusion;
+        return reflected(point, {}, {}, 0).y / color;
+    };
+    for (const float color : {0.05F, 0.5F, 0.95F}) {
+        EXPECT_LT(seen(color, 0.5F), seen(color, 1.0F)) << color;
+        EXPECT_GT(seen(color, 0.5F), 0.5F * seen(color, 1.0F)) << color;
+    }
+    const auto share = [&](float color) { return seen(color, 0.5F) / seen(color, 1.0F); };
+    EXPECT_GT(share(0.95F), 0.9F);
+    EXPECT_GT(share(0.5F), share(0.05F) + 0.1F);
+    EXPECT_LT(share(0.5F), 0.7F);
+}
+
 TEST(Shading, WithoutLightOnlyWhatGlowsIsSeen) {
     SurfacePoint point;
     point.base_color = glm::vec3(0.5F);
