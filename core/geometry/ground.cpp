@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "core/geometry/grid_solid.h"
+#include "core/geometry/litter_form.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -64,39 +66,12 @@ constexpr double least_lump = 0.25, lump_power = 1.8;
 
 /// Crumbs for each lump; their size, in that of the largest lump; how far beyond the edge of the soil
 /// the farthest lie, in its reaches; share of them that lies beyond it; how far their corners stray.
-constexpr double crumbs_per_lump = 2.0, least_crumb = 0.1, most_crumb = 0.34, farthest_crumb = 0.45,
-                 crumbs_beyond = 0.45, crumb_stray = 0.5;
+constexpr double crumbs_per_lump = 3.0, least_crumb = 0.08, most_crumb = 0.36, farthest_crumb = 0.5,
+                 crumbs_beyond = 0.3, crumb_stray = 0.5;
 
 /// Share of the band of soil, from its one edge to the other, that a lump or a crumb shows, so that
 /// its texels are about as long as wide; how often such shares begin anew along the strip.
 constexpr double pebble_across = 0.35, window_turns = 7.3;
-
-/// How a kind of litter is shaped and lies.
-struct PieceForm {
-    std::array<double, 5> widths;    ///< half, along it, in shares of the largest
-    double width, thickness;         ///< half, in its lengths
-    double least_stand, most_stand;  ///< angle above the ground, degrees
-    double bend;                     ///< of its tip, in its lengths: out, or up if it lies
-    double leaning;                  ///< share of pieces that lean on the stem
-    double sunk;                     ///< share of its length below the ground
-};
-
-constexpr PieceForm form_of(LitterKind kind) {
-    switch (kind) {
-        case LitterKind::leaves:
-            return {{0.16, 0.8, 1.0, 0.66, 0.0}, 0.27, 0.013, -4.0, 14.0, 0.3, 0.25, 0.0};
-        case LitterKind::needles:
-            return {{0.7, 1.0, 1.0, 0.9, 0.0}, 0.03, 0.02, -5.0, 12.0, 0.06, 0.3, 0.0};
-        case LitterKind::grass:
-            return {{0.8, 1.0, 0.85, 0.55, 0.0}, 0.035, 0.008, 48.0, 84.0, 0.45, 0.0, 0.08};
-        case LitterKind::moss:
-            // Whorls of leaves, one above the other.
-            return {{0.35, 1.0, 0.4, 0.8, 0.0}, 0.085, 0.05, 42.0, 88.0, 0.3, 0.0, 0.15};
-        case LitterKind::chips:
-            return {{0.35, 0.85, 1.0, 0.55, 0.0}, 0.13, 0.035, -6.0, 12.0, 0.08, 0.12, 0.0};
-    }
-    return {};
-}
 
 /// How high litter lies on the lumps of the soil, in sizes of the largest.
 constexpr double on_lumps = 0.4;
@@ -105,18 +80,24 @@ constexpr double on_lumps = 0.4;
 constexpr std::array<double, 5> strand_widths = {1.0, 0.8, 0.62, 0.45, 0.0};
 constexpr double strand_width = 0.022, strand_wind = 0.16;
 
-/// Resolution of whole levels by their columns: the grids of the clod, of a lump and of a rod, empty
-/// where there is none, and the shares of the lumps and strands, and of the litter, that are built.
+/// Resolution of whole levels by their columns: the grids of the clod, of a lump and of litter, empty
+/// where there is none, or at the finest level those of its kinds, and the shares of the lumps and
+/// strands, and of the litter, that are built.
 struct Resolution {
     int least_columns;
-    SolidGrid clod, lump, rod, strand, crumb;
+    SolidGrid clod, lump, litter_grid, strand, crumb;
     double lumps, litter;
 };
 constexpr std::array<Resolution, 4> resolutions = {
-    {{72, {15, 32, false}, {4, 5, false}, {5, 4, false}, {8, 3, false}, {3, 5, false}, 1.0, 1.0},
+    {{72, {21, 72, false}, {4, 5, false}, {}, {8, 3, false}, {3, 5, false}, 1.0, 1.0},
      {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, {}, 0.15, 0.5},
      {12, {5, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
      {0, {4, 6, false}, {}, {}, {}, {}, 0.0, 0.0}}};
+
+/// Returns the grid of a piece of litter.
+SolidGrid grid_of(const LitterForm& form, const Resolution& resolution) {
+    return resolution.litter_grid.rows > 0 ? resolution.litter_grid : form.grid;
+}
 
 int built(int count, double share, const Detail& detail) {
     return static_cast<int>(std::ceil(detail.ground * share * count));
@@ -427,11 +408,13 @@ class GroundBuilder {
         glm::dvec3 bend{0.0}, wind{0.0};
         glm::dvec3 side;  ///< unit, square to `along`: across it, where it is wide
         double length = 0.0, width = 0.0, thickness = 0.0;  ///< the last two half, metres
-        std::array<double, 5> widths{};                     ///< along it, in shares of the largest
+        std::span<const double> widths = {};                ///< along it, in shares of the largest
+        double curl = 0.0, ragged = 0.0, whorl = 0.0;       ///< as those of a LitterForm
     };
 
+    /// random  strays its rim
     void add_rod(const Rod& rod, const SolidGrid& grid, std::size_t band, double window,
-                 double share) {
+                 double share, Random& random) {
         const glm::dvec3 other = glm::cross(rod.along, rod.side);
         std::vector<glm::dvec3> corners;
         for (int i = 0; i < grid.rows; ++i) {
@@ -440,10 +423,17 @@ class GroundBuilder {
                 rod.from + rod.length * (t * rod.along + t * t * rod.bend +
                                          sine(2.0 * pi * t) * (1.0 - t) * rod.wind);
             const double wide = i + 1 == grid.rows ? 0.0 : of_table(rod.widths, t);
+            // Both rims stray, the faces between them stay smooth.
+            const double right = rod.ragged * random.symmetric(),
+                         left = rod.ragged * random.symmetric();
             for (int j = 0; j < grid.columns; ++j) {
                 const auto turn = sine_cosine(2.0 * pi * j / grid.columns);
-                corners.push_back(middle + wide * (turn.cosine * rod.width * rod.side +
-                                                   turn.sine * rod.thickness * other));
+                const double drawn_in = (i + j) % 2 == 1 ? 1.0 - rod.whorl : 1.0;
+                const double across = turn.cosine * (1.0 + (turn.cosine > 0.0 ? right : left));
+                corners.push_back(middle + wide * (drawn_in * across * rod.width * rod.side +
+                                                   (drawn_in * turn.sine * rod.thickness +
+                                                    rod.curl * across * across * rod.width) *
+                                                       other));
             }
             close_row(corners, grid);
         }
@@ -452,18 +442,22 @@ class GroundBuilder {
 
     void add_piece(int number) {
         Random random = this->random(1, number);
-        const PieceForm form = form_of(style_.litter.kind);
+        const LitterForm form = form_of(style_.litter.kind);
         const double place = static_cast<double>(number) / std::max(style_.litter.pieces, 1);
         const double angle = angle_of(number, random);
         const double lot = random.uniform(), far = random.uniform(), turned = random.uniform();
         const double stand = radians(random.uniform(form.least_stand, form.most_stand));
         const double roll = 0.5 * random.symmetric(), bent = random.uniform(0.3, 1.0);
         const double window = random.uniform(), size = random.uniform(0.7, 1.0);
+        const double curled = random.symmetric();
         Rod rod;
         rod.length = weight_ * style_.litter.length * size * (1.0 - 0.5 * place);
         rod.width = form.width * rod.length;
         rod.thickness = form.thickness * rod.length;
         rod.widths = form.widths;
+        rod.curl = form.curl * curled;
+        rod.ragged = form.ragged;
+        rod.whorl = form.whorl;
         const double lying = 1.0 - smooth_step(0.0, 0.7, stand);
         // What lies reaches over the edge of the soil, what grows stands on it.
         const double gap = lying > 0.5 ? far * far : 0.1 + 0.9 * far;
@@ -499,7 +493,7 @@ class GroundBuilder {
         }
         rod.side = turned_square(unit_or(glm::cross(upwards, rod.along), tangent), rod.along,
                                  roll + (1.0 - lying) * turned * pi);
-        add_rod(rod, resolution_.rod, 1, window, 0.2);
+        add_rod(rod, grid_of(form, resolution_), 1, window, 0.2, random);
     }
 
     void add_strand(int number) {
@@ -517,7 +511,7 @@ class GroundBuilder {
         rod.bend = -0.3 * upwards + 0.8 * rod.wind;
         rod.width = rod.thickness = strand_width * rod.length;
         rod.widths = strand_widths;
-        add_rod(rod, resolution_.strand, 2, window, 0.25);
+        add_rod(rod, resolution_.strand, 2, window, 0.25, random);
     }
 };
 
@@ -561,7 +555,7 @@ MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& det
         const Built built = built_of(style, detail);
         MeshCount one = resolution.clod.count().times(built.clods);
         one += resolution.lump.count().times(built.lumps);
-        one += resolution.rod.count().times(built.pieces);
+        one += grid_of(form_of(style.litter.kind), resolution).count().times(built.pieces);
         one += resolution.strand.count().times(built.strands);
         one += resolution.crumb.count().times(built.crumbs);
         if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;

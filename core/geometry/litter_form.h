@@ -1,0 +1,99 @@
+// How a piece of each kind of litter is shaped and lies.
+#pragma once
+
+#include <array>
+
+#include "core/geometry/grid_solid.h"
+#include "core/model/ground.h"
+
+namespace sporeprint {
+
+/// A piece of litter: a flat section along a curve.
+struct LitterForm {
+    std::array<double, 9> widths;    ///< half, along it, in shares of the largest
+    double width, thickness;         ///< half, in its lengths
+    double least_stand, most_stand;  ///< angle above the ground, degrees
+    double bend;                     ///< of its tip, in its lengths: out, or up if it lies
+    double leaning;                  ///< share of pieces that lean on the stem
+    double sunk;                     ///< share of its length below the ground
+    double curl;                     ///< of its sides, at most, in half widths
+    double ragged;                   ///< how far its rim strays, in half widths
+    double whorl;                    ///< how far every second corner is drawn in, 0..1
+    SolidGrid grid;                  ///< at LOD 0
+};
+
+// No source or measurement is recorded for these values.
+[[nodiscard]] constexpr LitterForm form_of(LitterKind kind) {
+    switch (kind) {
+        case LitterKind::leaves:
+            // A stalk, and a blade that dried in a bow.
+            return {.widths = {0.07, 0.05, 0.62, 0.93, 1.0, 0.9, 0.66, 0.34, 0.0},
+                    .width = 0.27,
+                    .thickness = 0.006,
+                    .least_stand = -4.0,
+                    .most_stand = 16.0,
+                    .bend = 0.45,
+                    .leaning = 0.25,
+                    .sunk = 0.0,
+                    .curl = 0.75,
+                    .ragged = 0.16,
+                    .whorl = 0.0,
+                    .grid = {9, 8, false}};
+        case LitterKind::needles:
+            return {.widths = {0.7, 1.0, 1.0, 1.0, 1.0, 1.0, 0.95, 0.8, 0.0},
+                    .width = 0.026,
+                    .thickness = 0.018,
+                    .least_stand = -5.0,
+                    .most_stand = 12.0,
+                    .bend = 0.12,
+                    .leaning = 0.3,
+                    .sunk = 0.0,
+                    .curl = 0.0,
+                    .ragged = 0.0,
+                    .whorl = 0.0,
+                    .grid = {6, 4, false}};
+        case LitterKind::grass:
+            return {.widths = {0.75, 0.95, 1.0, 1.0, 0.95, 0.86, 0.7, 0.44, 0.0},
+                    .width = 0.028,
+                    .thickness = 0.004,
+                    .least_stand = 42.0,
+                    .most_stand = 84.0,
+                    .bend = 0.75,
+                    .leaning = 0.0,
+                    .sunk = 0.08,
+                    .curl = 0.8,
+                    .ragged = 0.0,
+                    .whorl = 0.0,
+                    .grid = {9, 6, false}};
+        case LitterKind::moss:
+            // Whorls of leaves, one above the other.
+            return {.widths = {0.3, 0.55, 1.0, 0.45, 0.95, 0.4, 0.8, 0.35, 0.0},
+                    .width = 0.12,
+                    .thickness = 0.12,
+                    .least_stand = 42.0,
+                    .most_stand = 88.0,
+                    .bend = 0.3,
+                    .leaning = 0.0,
+                    .sunk = 0.15,
+                    .curl = 0.0,
+                    .ragged = 0.25,
+                    .whorl = 0.6,
+                    .grid = {9, 6, false}};
+        case LitterKind::chips:
+            return {.widths = {0.5, 0.85, 0.95, 1.0, 0.96, 1.0, 0.8, 0.55, 0.0},
+                    .width = 0.11,
+                    .thickness = 0.035,
+                    .least_stand = -6.0,
+                    .most_stand = 12.0,
+                    .bend = 0.1,
+                    .leaning = 0.12,
+                    .sunk = 0.0,
+                    .curl = 0.15,
+                    .ragged = 0.3,
+                    .whorl = 0.0,
+                    .grid = {7, 6, false}};
+    }
+    return {};
+}
+
+}  // namespace sporeprint
