@@ -144,13 +144,16 @@ std::optional<glm::vec3> underside_at(const Draw& draw, const Extent& extent,
 CloseUp base_of(const DrawList& list, const Individual& individual, double azimuth, float frame) {
     glm::vec3 target = individual.draw->placement.translation;
     const Extent extent = extent_of(*individual.draw);
-    const glm::vec3 away(individual.middle.x - target.x, 0.0F, individual.middle.z - target.z);
-    const float aside = std::sqrt(glm::dot(away, away));
+    glm::vec3 away(individual.middle.x - target.x, 0.0F, individual.middle.z - target.z);
     const bool has_carrier = has(list, GlbRole::carrier);
-    // Stems of a colony carry caps, whose origins are high above the ground.
-    if (has_carrier && list.stands_on_ground) target.y = 0.0F;
-    const float leaning = has_carrier ? 0.0F : leaning_up_to * (extent.highest - extent.lowest);
-    if (aside > std::max(sideways_from * frame, leaning)) {
+    const bool is_on_wood = has_carrier && !list.stands_on_ground;
+    // Brackets grow forwards from their wood. Stems of a colony carry caps, whose origins are high
+    // above the ground.
+    if (is_on_wood) away = individual.draw->placement.linear * glm::vec3(0.0F, 0.0F, 1.0F);
+    if (has_carrier && !is_on_wood) target.y = 0.0F;
+    const float aside = std::sqrt(glm::dot(away, away));
+    if (is_on_wood ||
+        aside > std::max(sideways_from * frame, leaning_up_to * (extent.highest - extent.lowest))) {
         const double turn =
             arc_tangent(static_cast<double>(away.x), static_cast<double>(away.z)) * (180.0 / pi);
         return {target, camera_axes(turn + sideways_turn_deg, sideways_elevation_deg), frame};

@@ -38,6 +38,19 @@ std::vector<float> means_along(const std::vector<float>& grid, int side, int ste
     return means;
 }
 
+/// Blurs a square grid.
+void blur(std::vector<float>& grid, int side, std::size_t rounds) {
+    for (std::size_t round = 0; round < rounds; ++round)
+        grid = means_along(means_along(grid, side, 1, 0), side, 0, 1);
+}
+
+/// Returns how often shadows are blurred, more for fewer lights.
+///
+/// single  number of lights from which on they are blurred less than once
+std::size_t rounds_of(const std::vector<Light>& lights, std::size_t single) {
+    return std::min<std::size_t>((single - 1) / lights.size(), 4);
+}
+
 }  // namespace
 
 float GroundShadow::Falling::light_at(const glm::vec3& at, bool is_sharp) const {
@@ -74,9 +87,9 @@ GroundShadow::GroundShadow(const Bounds& box, const Falling& lamps, const Fallin
             }
         });
     parallel(tasks);
-    // The sky is a few lights, whose shadows would be seen apart from each other.
-    for (int round = 0; round < 2; ++round)
-        of_sky = means_along(means_along(of_sky, side, 1, 0), side, 0, 1);
+    // Lights are few, and their shadows would be seen apart from each other.
+    blur(of_lamps, side, rounds_of(lamps.lights, 14));
+    blur(of_sky, side, rounds_of(sky.lights, 56));
     const float all = falling(lamps.lights) + falling(sky.lights);
     darkness_.resize(cells);
     for (std::size_t i = 0; i < cells; ++i)
