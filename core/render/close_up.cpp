@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
 #include "core/math/direction.h"
@@ -26,8 +27,9 @@ constexpr double most_of_scene = 0.7;
 /// Where the underside is looked at, between the middle and the margin.
 constexpr float between_middle_and_margin = 0.6F;
 
-/// The cap is above this part of the height of an individual; ring, volva and litter are below.
-constexpr float cap_from = 0.35F;
+/// The cap of what stands on the ground is above this part of its height; ring, volva and litter are
+/// below.
+constexpr float cap_from = 0.5F;
 
 /// How high above the ground the middle of the close-up of a base is, as a part of its frame.
 constexpr float base_height = 0.3F;
@@ -84,17 +86,20 @@ Individual foremost(const DrawList& list, const glm::vec3& direction, GlbRole ro
 
 struct Extent {
     float lowest = 1e30F, highest = -1e30F;
-
-    [[nodiscard]] float cap() const { return lowest + cap_from * (highest - lowest); }
+    float cap = -1e30F;  ///< from where on there is a cap
 };
 
-Extent extent_of(const Draw& draw) {
+Extent extent_of(const Draw& draw, bool stands_on_ground) {
     Extent extent;
     for (const glm::vec3& at : draw.mesh->positions) {
         const float y = draw.placement.point(at).y;
         extent.lowest = std::min(extent.lowest, y);
         extent.highest = std::max(extent.highest, y);
     }
+    if (!stands_on_ground) return extent;
+    // What is under the ground does not count.
+    extent.lowest = std::max(extent.lowest, std::min(draw.placement.translation.y, extent.highest));
+    extent.cap = extent.lowest + cap_from * (extent.highest - extent.lowest);
     return extent;
 }
 
@@ -104,18 +109,36 @@ glm::vec3 margin_of(const Draw& draw, const Extent& extent, const glm::vec3& dir
     float most = -1e30F;
     for (const glm::vec3& own : draw.mesh->positions) {
         const glm::vec3 at = draw.placement.point(own);
-        if (at.y < extent.cap() || glm::dot(at, direction) <= most) continue;
+        if (at.y < extent.cap || glm::dot(at, direction) <= most) continue;
         most = glm::dot(at, direction);
         margin = at;
     }
     return margin;
 }
 
-/// Returns the lowest point of the upper part that faces downwards above or below a place, or the
-/// lowest of all if the upper part has none.
+/// Returns the weights of the corners of a triangle, seen from above, at a place; negative ones outside.
+glm::vec3 horizontal_weights(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                             const glm::vec3& place) {
+    const auto area = [&](const glm::vec3& from, const glm::vec3& to, const glm::vec3& at) {
+        return (to.z - from.z) * (at.x - from.x) - (to.x - from.x) * (at.z - from.z);
+    };
+    const float all = area(a, b, c);
+    if (all == 0.0F) return glm::vec3(-1.0F);
+    return glm::vec3(area(b, c, place), area(c, a, place), area(a, b, place)) * (1.0F / all);
+}
+
+/// Returns the triangle that faces downwards nearest to the vertical line through a place, as a point
+/// of it; of several on the line the lowest. One of the cap is preferred.
 std::optional<glm::vec3> underside_at(const Draw& draw, const Extent& extent,
                                       const glm::vec3& place) {
-    std::optional<glm::vec3> of_cap, of_all;
+    struct Found {
+        bool is_cap = false;
+        float aside = 0.0F;
+        glm::vec3 at{0.0F};
+
+        [[nodiscard]] auto order() const { return std::tuple(!is_cap, aside, at.y); }
+    };
+    std::optional<Found> best;
     const std::vector<std::uint32_t>& indices = draw.mesh->indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::vec3 a = draw.placement.point(draw.mesh->positions[indices[i]]),
@@ -123,27 +146,22 @@ std::optional<glm::vec3> underside_at(const Draw& draw, const Extent& extent,
                         c = draw.placement.point(draw.mesh->positions[indices[i + 2]]);
         const glm::vec3 normal = glm::cross(b - a, c - a);
         if (normal.y >= 0.0F || normal.y * normal.y < 0.04F * glm::dot(normal, normal)) continue;
-        // Areas seen from below, all negative inside.
-        const auto area = [&](const glm::vec3& from, const glm::vec3& to) {
-            return (to.z - from.z) * (place.x - from.x) - (to.x - from.x) * (place.z - from.z);
-        };
-        const float at_a = area(b, c), at_b = area(c, a), at_c = area(a, b);
-        const bool is_inside = (at_a >= 0.0F && at_b >= 0.0F && at_c >= 0.0F) ||
-                               (at_a <= 0.0F && at_b <= 0.0F && at_c <= 0.0F);
-        const float sum = at_a + at_b + at_c;
-        if (!is_inside || sum == 0.0F) continue;
-        const glm::vec3 at = (a * at_a + b * at_b + c * at_c) * (1.0F / sum);
-        if (!of_all || at.y < of_all->y) of_all = at;
-        if (at.y > extent.cap() && (!of_cap || at.y < of_cap->y)) of_cap = at;
+        const glm::vec3 weights = horizontal_weights(a, b, c, place);
+        const bool is_inside = std::min({weights.x, weights.y, weights.z}) >= 0.0F;
+        const glm::vec3 at =
+            is_inside ? a * weights.x + b * weights.y + c * weights.z : (a + b + c) * (1.0F / 3.0F);
+        const float x = at.x - place.x, z = at.z - place.z;
+        const Found found{at.y > extent.cap, is_inside ? 0.0F : x * x + z * z, at};
+        if (!best || found.order() < best->order()) best = found;
     }
-    return of_cap ? of_cap : of_all;
+    return best ? std::optional(best->at) : std::nullopt;
 }
 
 /// Returns the close-up of the base, a little above the place where an individual touches what it
 /// grows on: there meshes have their origin.
 CloseUp base_of(const DrawList& list, const Individual& individual, double azimuth, float frame) {
     glm::vec3 target = individual.draw->placement.translation;
-    const Extent extent = extent_of(*individual.draw);
+    const Extent extent = extent_of(*individual.draw, list.stands_on_ground);
     glm::vec3 away(individual.middle.x - target.x, 0.0F, individual.middle.z - target.z);
     const bool has_carrier = has(list, GlbRole::carrier);
     const bool is_on_wood = has_carrier && !list.stands_on_ground;
@@ -182,7 +200,7 @@ CloseUp close_up_of(const DrawList& list, const PictureParams& params) {
                        at_most(std::max(base_frame, tall_base_part * static_cast<double>(size.y))));
     const Individual individual =
         foremost(list, towards, has(list, GlbRole::foliage) ? GlbRole::foliage : GlbRole::body);
-    const Extent extent = extent_of(*individual.draw);
+    const Extent extent = extent_of(*individual.draw, list.stands_on_ground);
     const glm::vec3 margin = margin_of(*individual.draw, extent, towards);
     if (params.view == View::margin)
         return {margin, camera_axes(azimuth, 10.0), at_most(margin_frame)};
@@ -191,8 +209,8 @@ CloseUp close_up_of(const DrawList& list, const PictureParams& params) {
     const std::optional<glm::vec3> target = underside_at(*individual.draw, extent, place);
     if (!target)
         throw Impossible("/view",
-                         "nothing faces downwards between the middle and the margin of this "
-                         "product, so it has no underside to show. Ask for another view");
+                         "nothing of this product faces downwards, so it has no underside to "
+                         "show. Ask for another view");
     return {*target, camera_axes(azimuth, -34.0), at_most(underside_frame)};
 }
 

@@ -25,7 +25,7 @@ struct CloseUp {
 /// than that allows; of small scenes at most seven tenths of their longest side.
 ///
 /// params  with such a view
-/// throws  Impossible (path "/view") if nothing faces downwards
+/// throws  Impossible (path "/view") if nothing faces downwards, as it does in every closed mesh
 /// cost    O(vertices + triangles)
 [[nodiscard]] CloseUp close_up_of(const DrawList& list, const PictureParams& params);
 

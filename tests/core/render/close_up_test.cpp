@@ -18,11 +18,6 @@ PictureParams viewed(View view, double turn_deg = -30.0) {
     return params;
 }
 
-Mesh moved(Mesh mesh, const glm::vec3& by) {
-    for (glm::vec3& at : mesh.positions) at += by;
-    return mesh;
-}
-
 /// Returns a cap on a thin stem that stands on the origin.
 Mesh mushroom(float height, float radius) {
     Mesh mesh = ball(radius, {0.0F, height, 0.0F});
@@ -104,18 +99,30 @@ TEST(CloseUp, OfManyItLooksAtTheForemostAndNeverAtWhatCarriesThem) {
     EXPECT_LT(close_up_of(list, viewed(View::margin, 150.0)).target.z, -0.9F) << "from behind";
 }
 
-TEST(CloseUp, WhereNothingFacesDownwardsItIsRefused) {
-    // Four balls at the corners of a square: the place between middle and margin is free.
+// Between the middle and the margin of four balls is no mesh: the nearest underside is looked at.
+TEST(CloseUp, TheUndersideIsTheNearestOneIfNoneIsAtItsPlace) {
     Mesh mesh;
-    for (const glm::vec3 at : {glm::vec3(1.0F, 0.0F, 1.0F), glm::vec3(-1.0F, 0.0F, 1.0F),
-                               glm::vec3(1.0F, 0.0F, -1.0F), glm::vec3(-1.0F, 0.0F, -1.0F)}) {
-        const Mesh one = moved(ball(0.05F, glm::vec3(0.0F)), at);
+    for (const glm::vec3 at : {glm::vec3(1.0F, 0.5F, 1.0F), glm::vec3(-1.0F, 0.5F, 1.0F),
+                               glm::vec3(1.0F, 0.5F, -1.0F), glm::vec3(-1.0F, 0.5F, -1.0F)}) {
+        const Mesh one = ball(0.05F, at);
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.insert(mesh.positions.end(), one.positions.begin(), one.positions.end());
         mesh.normals.insert(mesh.normals.end(), one.normals.begin(), one.normals.end());
         for (const std::uint32_t i : one.indices) mesh.indices.push_back(first + i);
     }
     const GlbScene scene = scene_of(mesh);
+    const CloseUp found = close_up_of(draw_list(scene, in_turn), viewed(View::underside));
+    EXPECT_NEAR(std::abs(found.target.x), 1.0F, 0.05F);
+    EXPECT_NEAR(found.target.z, 1.0F, 0.05F);
+    EXPECT_LT(found.target.y, 0.5F);
+}
+
+TEST(CloseUp, WhatDoesNotFaceDownwardsHasNoUnderside) {
+    Mesh sheet;
+    sheet.positions = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}};
+    sheet.normals.assign(3, {0.0F, 1.0F, 0.0F});
+    sheet.indices = {0, 1, 2};
+    const GlbScene scene = scene_of(sheet);
     const DrawList list = draw_list(scene, in_turn);
     EXPECT_TRUE(names(refusal([&] { (void)close_up_of(list, viewed(View::underside)); }), "/view",
                       "no underside"));
