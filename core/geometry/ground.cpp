@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <span>
 
 #include "core/geometry/grid_solid.h"
-#include "core/geometry/litter_form.h"
+#include "core/geometry/litter_piece.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -70,8 +69,8 @@ constexpr double crumbs_per_lump = 3.0, least_crumb = 0.08, most_crumb = 0.36, f
                  crumbs_beyond = 0.3, crumb_stray = 0.5;
 
 /// Share of the band of soil, from its one edge to the other, that a lump or a crumb shows, so that
-/// its texels are about as long as wide; how often such shares begin anew along the strip.
-constexpr double pebble_across = 0.35, window_turns = 7.3;
+/// its texels are about as long as wide.
+constexpr double pebble_across = 0.35;
 
 /// How high litter lies on the lumps of the soil, in sizes of the largest.
 constexpr double on_lumps = 0.4;
@@ -271,12 +270,7 @@ class GroundBuilder {
                       double across = 1.0, int crest = 0) {
         GridSolid solid{grid, Part::ground, {}, {}};
         solid.crest = crest;
-        const auto& [low, high] = ground_bands[band];
-        // Pieces that begin near each other along the strip lie apart across it.
-        const double apart = window_turns * from - std::floor(window_turns * from);
-        const double least = low + apart * (1.0 - across) * (high - low);
-        solid.window = {from * (1.0 - share), from * (1.0 - share) + share, least,
-                        least + across * (high - low)};
+        solid.window = StripPiece{band, from, share, across}.window();
         solid.corners = std::move(corners);
         append(mesh_, solid, normal, textured_, drawn_);
     }
@@ -379,7 +373,7 @@ class GroundBuilder {
     /// Appends a grain of soil on the clod or on the ground beside it, so that the soil does not end
     /// in a line.
     void add_crumb(int number) {
-        Random random = this->random(3, number);
+        Random random(seed_, purposes::ground_crumbs, stream_ + static_cast<std::uint32_t>(number));
         const double angle = angle_of(number, random);
         const double lot = random.uniform(), far = random.uniform(), size = random.uniform();
         const double spin = random.uniform(0.0, 2.0 * pi), window = random.uniform();
@@ -402,42 +396,11 @@ class GroundBuilder {
                    {window, 0.1}, corner);
     }
 
-    /// A curve with a flat section round it.
-    struct Rod {
-        glm::dvec3 from, along;  ///< its beginning, and unit direction there
-        glm::dvec3 bend{0.0}, wind{0.0};
-        glm::dvec3 side;  ///< unit, square to `along`: across it, where it is wide
-        double length = 0.0, width = 0.0, thickness = 0.0;  ///< the last two half, metres
-        std::span<const double> widths = {};                ///< along it, in shares of the largest
-        double curl = 0.0, ragged = 0.0, whorl = 0.0;       ///< as those of a LitterForm
-    };
-
     /// random  strays its rim
     void add_rod(const Rod& rod, const SolidGrid& grid, std::size_t band, double window,
                  double share, Random& random) {
-        const glm::dvec3 other = glm::cross(rod.along, rod.side);
-        std::vector<glm::dvec3> corners;
-        for (int i = 0; i < grid.rows; ++i) {
-            const double t = row_place(i, grid);
-            const glm::dvec3 middle =
-                rod.from + rod.length * (t * rod.along + t * t * rod.bend +
-                                         sine(2.0 * pi * t) * (1.0 - t) * rod.wind);
-            const double wide = i + 1 == grid.rows ? 0.0 : of_table(rod.widths, t);
-            // Both rims stray, the faces between them stay smooth.
-            const double right = rod.ragged * random.symmetric(),
-                         left = rod.ragged * random.symmetric();
-            for (int j = 0; j < grid.columns; ++j) {
-                const auto turn = sine_cosine(2.0 * pi * j / grid.columns);
-                const double drawn_in = (i + j) % 2 == 1 ? 1.0 - rod.whorl : 1.0;
-                const double across = turn.cosine * (1.0 + (turn.cosine > 0.0 ? right : left));
-                corners.push_back(middle + wide * (drawn_in * across * rod.width * rod.side +
-                                                   (drawn_in * turn.sine * rod.thickness +
-                                                    rod.curl * across * across * rod.width) *
-                                                       other));
-            }
-            close_row(corners, grid);
-        }
-        append_solid(grid, band, window, share, corners, other);
+        std::vector<glm::dvec3> corners = corners_of(rod, grid, random);
+        append_solid(grid, band, window, share, corners, rod.up());
     }
 
     void add_piece(int number) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/geometry/fallen_litter.h"
 #include "core/geometry/grid_solid.h"
 #include "core/geometry/ground.h"
 #include "core/geometry/receptacle.h"
@@ -230,6 +231,7 @@ MeshCount ornament_count(const Individual& individual, const OrnamentDetail& det
     sum += peridiole_count(individual, detail);
     sum += receptacle_count(individual, detail);
     sum += ground_count(individual.grounds, detail);
+    sum += fallen_litter_count(individual.grounds, detail);
     for (const PatchLayer& layer : individual.layers)
         sum += patch_grid(detail).count().times(piece_count(layer, detail));
     return sum;
@@ -243,6 +245,7 @@ void add_ornaments(Mesh& mesh, const Individual& individual, const OrnamentConte
     add_peridioles(mesh, individual, context);
     add_receptacles(mesh, individual, context);
     add_ground(mesh, individual, context);
+    add_fallen_litter(mesh, individual, context);
 }
 
 }  // namespace sporeprint

@@ -85,6 +85,8 @@ enum Purpose : std::uint32_t {
     species_damage = 145,  ///< seed of the damage of one species of an individual
     tree_tints = 146,      ///< hue and brightness of each branch of a tree, and of each leaf
     leaf_damage = 147,     ///< where insects have eaten a leaf
+    fallen_litter = 148,   ///< litter on a cap
+    ground_crumbs = 149,   ///< grains of soil on a clod and beside it
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -170,6 +172,8 @@ enum Purpose : std::uint32_t {
         case species_damage:
         case tree_tints:
         case leaf_damage:
+        case fallen_litter:
+        case ground_crumbs:
             return 1;
     }
     return 0;

@@ -63,6 +63,7 @@ constexpr const char* name(LitterKind kind) {
 struct LitterStyle {
     LitterKind kind = LitterKind::leaves;
     int pieces = 0;
+    int fallen = 0;
     double length = 0.015;
     Colour colour = {146, 106, 62};
     Colour aged = {86, 62, 42};
@@ -77,6 +78,12 @@ struct LitterStyle {
                                .min = 0,
                                .max = 120,
                                .doc = "Their number; coarse levels of detail have fewer."});
+        visit(&L::fallen,
+              Info{.name = "fallen",
+                   .min = 0,
+                   .max = 16,
+                   .doc = "Pieces that have fallen on the cap of a grown mushroom; none on forms "
+                          "without a cap."});
         visit(&L::length, Info{.name = "length",
                                .unit = "m",
                                .min = 0.0005,

@@ -1,14 +1,19 @@
-// How a piece of each kind of litter is shaped and lies.
+// Pieces of litter and strands: flat sections along a curve, as solids.
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
 
 #include "core/geometry/grid_solid.h"
+#include "core/math/random.h"
 #include "core/model/ground.h"
 
 namespace sporeprint {
 
-/// A piece of litter: a flat section along a curve.
+/// How a piece of one kind of litter is shaped and lies.
 struct LitterForm {
     std::array<double, 9> widths;    ///< half, along it, in shares of the largest
     double width, thickness;         ///< half, in its lengths
@@ -95,5 +100,35 @@ struct LitterForm {
     }
     return {};
 }
+
+/// A curve with a flat section round it.
+struct Rod {
+    glm::dvec3 from{0.0}, along{0.0, 1.0, 0.0};  ///< its beginning, and unit direction there
+    glm::dvec3 bend{0.0}, wind{0.0};
+    glm::dvec3 side{1.0, 0.0, 0.0};  ///< unit, square to `along`: across it, where it is wide
+    double length = 0.0, width = 0.0, thickness = 0.0;  ///< the last two half, metres
+    std::span<const double> widths = {};                ///< along it, in shares of the largest
+    double curl = 0.0, ragged = 0.0, whorl = 0.0;       ///< as those of a LitterForm
+
+    /// Returns the unit direction that its faces look to at its beginning; sides curl to it.
+    [[nodiscard]] glm::dvec3 up() const;
+};
+
+/// Returns the corners of a rod as those of a GridSolid.
+///
+/// random  strays its rim
+[[nodiscard]] std::vector<glm::dvec3> corners_of(const Rod& rod, const SolidGrid& grid,
+                                                 Random& random);
+
+/// Which piece of the ground's strip paints a solid.
+struct StripPiece {
+    std::size_t band = 0;  ///< of ground_bands
+    double from = 0.0;     ///< 0..1, where it begins in what is left of the strip and of the band
+    double share = 1.0;    ///< of the strip's length
+    double across = 1.0;   ///< share of the band's width
+
+    /// Returns it as the window of a GridSolid.
+    [[nodiscard]] std::array<double, 4> window() const;
+};
 
 }  // namespace sporeprint
