@@ -186,8 +186,9 @@ HWY_INLINE bool uses_turn(const CapPlan& plan) {
     return plan.fibrils > 0.0F || plan.striae > 0.0F || plan.skin.fibres;
 }
 
-/// Share of the meridian from which a cap that passes into the stem takes on its skin.
-constexpr float joined_from = 0.7F;
+/// Shares of the meridian from which a cap that passes into the stem takes on its colours, and from
+/// which its grain fades, to a part: a skin without grain would be seen as a band.
+constexpr float joined_from = 0.7F, joined_grain_from = 0.88F, joined_grain = 0.4F;
 
 /// Returns a texel of the cap. fields: values of cap_fields() at this texel
 HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
@@ -267,10 +268,13 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     }
     if (plan.veins > 0.0F) add_cap_veins(plan, p, fields, texel);
     if (plan.joined > 0.0F) {
-        texel.shade = mix(one, texel.shade, own);
-        texel.height = texel.height * own;
+        const VF grainy =
+            one - set(1.0F - joined_grain) *
+                      smooth(p.rho, joined_grain_from, 1.0F / (1.0F - joined_grain_from));
+        texel.shade = mix(one, texel.shade, grainy);
+        texel.height = texel.height * grainy;
         texel.roughness = mix(set(plan.joined_roughness), texel.roughness, own);
-        texel.occlusion = mix(one, texel.occlusion, own);
+        texel.occlusion = mix(one, texel.occlusion, grainy);
     }
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)) * lightness);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/geometry/litter_piece.h"
 #include "core/surface/charts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -75,7 +76,7 @@ TEST(FallenLitter, ItsCountIsPredicted) {
     layer.style.litter.fallen = 5;
     const Detail detail = detail_of(DetailLevel(0));
     EXPECT_EQ(fallen_litter_count({layer}, detail).triangles,
-              5 * SolidGrid{6, 4, false}.count().triangles);
+              5 * form_of(LitterKind::needles).grid.count().triangles);
     layer.style.litter.fallen = 0;
     EXPECT_EQ(fallen_litter_count({layer}, detail).triangles, 0U);
 }
