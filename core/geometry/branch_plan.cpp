@@ -17,10 +17,13 @@ namespace {
 
 constexpr std::uint32_t none = BranchGraph::none;
 
-constexpr std::array<TubeDetail, 10> detail_steps = {
+constexpr std::array<TubeDetail, 13> detail_steps = {
     {{28, 28, 20, 18, 6, 12, 11, 0.3, 0.0},
      {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
-     {24, 8, 8, 8, 2, 3, 6, 0.3, 0.0, 2, 6, 12, 11},
+     {24, 18, 10, 8, 4, 5, 8, 0.3, 0.0, 2, 6, 12, 11, 6},
+     {24, 16, 9, 7, 3, 4, 8, 0.3, 0.0, 2, 6, 12, 11, 5},
+     {24, 14, 8, 7, 2, 3, 7, 0.3, 0.0, 2, 6, 12, 11, 4},
+     {24, 10, 8, 8, 2, 3, 6, 0.3, 0.0, 2, 6, 12, 11},
      {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
      {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
      {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
@@ -28,11 +31,12 @@ constexpr std::array<TubeDetail, 10> detail_steps = {
      {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
      {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6},
      {3, 3, 3, 3, 1, 1, 2, 1.0, 0.6}}};
-/// Index of the resolution in which species of few segments are finer than in the one before: it
-/// serves sets that exceed the limit, and no level begins with it.
-constexpr std::size_t step_for_mixes = 2;
+/// Index of the first of the resolutions in which species of few segments are finer than in the one
+/// before, and their number: they serve sets and bushes that exceed the limit, and no level begins
+/// with them.
+constexpr std::size_t step_for_mixes = 2, steps_for_mixes = 4;
 /// Index of the finest and of the coarsest resolution by level of detail; if the coarsest exceeds
-/// the limit, the smallest tubes are dropped.
+/// the limit, the smallest tubes are dropped. The resolutions for mixes count as one.
 constexpr std::array<std::size_t, 5> first_step = {0, 3, 7, 8, 9};
 constexpr std::array<std::size_t, 5> last_step = {6, 6, 7, 8, 9};
 /// Share of tubes that must remain at a resolution before a coarser one is tried. A round tube of
@@ -40,7 +44,7 @@ constexpr std::array<std::size_t, 5> last_step = {6, 6, 7, 8, 9};
 constexpr std::array<double, 5> sufficient_share = {0.9, 0.5, 0.0, 0.0, 0.0};
 /// Largest number of triangles at farthest_lod, which no request can select by itself.
 constexpr std::uint64_t most_at_farthest = 150;
-/// Number of tips from which on a tube counts as thick.
+/// Number of tips from which on a tube or a segment counts as thick.
 constexpr int thick_tube_tips = 12;
 
 /// The resolutions among which a level of detail chooses.
@@ -53,15 +57,20 @@ struct Resolutions {
 /// coarser, because the triangle limit is lower than at the finer one.
 Resolutions resolutions_at(DetailLevel level) {
     const auto row = static_cast<std::size_t>(level.lod);
-    if (level.is_whole()) return {first_step[row], last_step[row], sufficient_share[row]};
+    // Returns the index of a resolution when those for mixes count as one, which none begins with.
+    const auto index = [](std::size_t step) {
+        return step < step_for_mixes ? step
+                                     : std::max(step, step_for_mixes + 1) + steps_for_mixes - 1;
+    };
+    if (level.is_whole())
+        return {index(first_step[row]), index(last_step[row]), sufficient_share[row]};
     const double further = static_cast<double>(level.eighths) / DetailLevel::steps;
     const auto mean = [&](const auto& table) {
         const auto from = static_cast<double>(table[row]), to = static_cast<double>(table[row + 1]);
         return from + further * (to - from);
     };
-    auto first = static_cast<std::size_t>(std::ceil(mean(first_step)));
-    if (first == step_for_mixes) ++first;
-    return {first, static_cast<std::size_t>(std::ceil(mean(last_step))), mean(sufficient_share)};
+    return {index(static_cast<std::size_t>(std::ceil(mean(first_step)))),
+            index(static_cast<std::size_t>(std::ceil(mean(last_step)))), mean(sufficient_share)};
 }
 
 std::vector<TubeChain> chains_of(const BranchGraph& graph) {
@@ -146,10 +155,15 @@ int tube_columns(const BranchGraph& graph, const TubeChain& chain, const TubeDet
     return tube_sides(chain, detail) * (few ? detail.few_sides : 1);
 }
 
+int own_steps(const BranchGraph::Node& end, const TubeDetail& detail) {
+    return end.tips >= thick_tube_tips ? std::max(detail.steps, detail.thick_steps) : detail.steps;
+}
+
 int segment_rings(const BranchGraph::Node& end, const TubeDetail& detail) {
     if (end.children[0] == none) return detail.tip_rings;
     const bool few = end.few > 0.0;
-    const int steps = few ? std::max(detail.steps, detail.few_steps) : detail.steps;
+    const int own = own_steps(end, detail);
+    const int steps = few ? std::max(own, detail.few_steps) : own;
     if (!end.may_end) return steps;
     return std::max({steps, detail.tip_rings, few ? detail.few_tip_rings : 0});
 }
@@ -205,8 +219,11 @@ BranchPlan branch_plan(const Individual& individual, const BranchGraph& graph, D
             plan.count.vertices += one.vertices;
             plan.count.triangles += one.triangles;
         }
-        if (static_cast<double>(retained) >=
-            allowed.sufficient_share * static_cast<double>(plan.chains.size()))
+        // The first of the resolutions for mixes are only finer: no twig is dropped for them.
+        const bool only_finer =
+            step >= step_for_mixes && step + 1 < step_for_mixes + steps_for_mixes;
+        const double sufficient = only_finer ? 1.0 : allowed.sufficient_share;
+        if (static_cast<double>(retained) >= sufficient * static_cast<double>(plan.chains.size()))
             break;
     }
     plan.chains.resize(retained);

@@ -26,6 +26,8 @@ struct TubeDetail {
     // For segments of a mix that belong to a species of few, long segments: factor on sides, and
     // numbers of rings; 0: as for all other segments.
     int few_sides = 1, few_steps = 0, few_tip_rings = 0, few_trunk_rings = 0;
+    /// Rings from fork to fork of segments with many tips; 0: as of all other segments.
+    int thick_steps = 0;
 };
 
 /// A segment and its continuation through first children, up to a tip: one tube.
@@ -62,6 +64,9 @@ struct BranchPlan {
 /// Returns the sides of a tube as it is drawn.
 [[nodiscard]] int tube_columns(const BranchGraph& graph, const TubeChain& chain,
                                const TubeDetail& detail);
+
+/// Returns the rings of a segment that forks at its end, of a species of many segments.
+[[nodiscard]] int own_steps(const BranchGraph::Node& end, const TubeDetail& detail);
 
 /// Returns the rings of a segment, whatever its end. Where only some species of a mix have a tip it
 /// has as many rings as a tip needs, so that weight 1 reproduces the single-species mesh.

@@ -59,7 +59,22 @@ constexpr double turn_length = 1.6;
 
 /// Radius of a tube at its beginning, in that of its parent, so that it stays inside; how deep it
 /// begins in its parent, in radii of that and at most in distances from the ground.
-constexpr double inside_parent = 0.97, root_depth = 1.1, most_root_depth = 0.7;
+constexpr double inside_parent = 0.97, root_depth = 1.5, most_root_depth = 0.7;
+
+/// Radius of the first ring of a tube, in that of its beginning, and how far it lies behind that, in
+/// the same: a tube comes out of its parent at a small angle, and the corners of its first polygon
+/// stay inside those of its parent, which may stand elsewhere.
+constexpr double first_ring = 0.8, first_depth = 1.2;
+
+/// Gnarled segments, for `gnarl` 1: how far their middle is beside the straight way, in their radius
+/// where they are much longer than `bend_length` radii; how much farther their second half is on the
+/// one side and their first on the other; how far their thickness deviates between forks, and how
+/// much thicker they are at forks.
+constexpr double gnarl_bend = 1.1, bend_length = 5.0, gnarl_swing = 0.5, gnarl_lumps = 0.24,
+                 gnarl_knees = 0.14;
+
+/// How far the colours of branches deviate from those of their place.
+constexpr double colour_drift = 0.55;
 
 /// Depth of the foot of a trunk under the ground, in its radii.
 constexpr double foot_depth = 0.2;
@@ -244,6 +259,35 @@ class TubeBuilder {
 
     [[nodiscard]] const Node& node(std::uint32_t i) const { return graph_.nodes[i]; }
 
+    // Returns where on the way from tip to trunk the end of a segment has its colour.
+    [[nodiscard]] double colour_at(std::uint32_t i) const {
+        const double at = node(i).from_tip;
+        return at + colour_drift * at * (1.0 - at) * node(i).gnarl.colour;
+    }
+
+    // Makes a station of a segment as crooked and uneven as the segment is at a share of its way.
+    void add_gnarl(Station& station, std::uint32_t i, double t, double length) const {
+        if (!(graph_.gnarl > 0.0)) return;
+        const SineCosine bend = sine_cosine(node(i).gnarl.bend),
+                         swing = sine_cosine(node(i).gnarl.swing);
+        const double radius = node(i).radius;
+        const double size =
+            graph_.gnarl * gnarl_bend * radius * length / (length + bend_length * radius + 1e-12);
+        const glm::dvec3 across = square_to(station.along, node(i).across);
+        const glm::dvec3 third = glm::cross(across, station.along);
+        const double middle = 4.0 * t * (1.0 - t), halves = gnarl_swing * middle * (1.0 - 2.0 * t);
+        station.at += size * ((middle * bend.cosine + halves * swing.cosine) * across +
+                              (middle * bend.sine + halves * swing.sine) * third);
+    }
+
+    // Returns the factor on the radius of a segment at a share of its way.
+    [[nodiscard]] double lumps_at(std::uint32_t i, double t, double at_fork) const {
+        const BranchGraph::Gnarl& own = node(i).gnarl;
+        const double middle = 4.0 * t * (1.0 - t);
+        return 1.0 + graph_.gnarl * (gnarl_lumps * own.lump * middle +
+                                     gnarl_knees * (1.0 + own.knee) * at_fork);
+    }
+
     // For each node, computes how many times more tips its segment represents than it has.
     void count_dropped_tips() {
         std::vector<bool> built(graph_.nodes.size(), false);
@@ -365,7 +409,7 @@ class TubeBuilder {
         if (graph_.is_tip(i)) {
             segment = as_tip(detail.tip_rings);
         } else {
-            segment = drawn(as_fork, detail.steps, detail.few_steps);
+            segment = drawn(as_fork, own_steps(node(i), detail), detail.few_steps);
             if (node(i).may_end)
                 mix(segment, drawn(as_tip, detail.tip_rings, detail.few_tip_rings), graph_.ends(i));
         }
@@ -411,9 +455,10 @@ class TubeBuilder {
         return s;
     }
 
-    // Returns one station on the path from `from` to the end of a segment; its radius is not set.
+    // Returns one station on the path from `from` to the end of a segment, of whose shape there it
+    // takes on `taken`; its radius is not set.
     Station station_on_path(const Station& from, std::uint32_t i, const glm::dvec3& arriving,
-                            const glm::dmat3& flat, double t, double near_end) const {
+                            const glm::dmat3& flat, double t, double near_end, double taken) const {
         const Node& end = node(i);
         const auto sample = hermite_path(from.at, from.along, end.place, arriving).at(t);
         Station s;
@@ -422,9 +467,11 @@ class TubeBuilder {
         // bent.
         s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
         s.flat = (1.0 - t) * from.flat + t * flat;
-        shape(s, near_end + from.at_fork * (1.0 - smooth_step(0.0, fork_ends, t)), flatness_of(i));
-        s.colour = from.colour + t * (end.from_tip - from.colour);
+        shape(s, near_end + from.at_fork * (1.0 - taken * smooth_step(0.0, fork_ends, t)),
+              flatness_of(i));
+        s.colour = from.colour + t * (colour_at(i) - from.colour);
         s.few = end.few;
+        add_gnarl(s, i, t, glm::distance(from.at, end.place));
         return s;
     }
 
@@ -442,10 +489,11 @@ class TubeBuilder {
         std::vector<Station> stations;
         for (int k = 1; k <= steps; ++k) {
             const double t = static_cast<double>(k) / steps;
-            Station s = station_on_path(from, i, arriving, flat, t,
-                                        taken * smooth_step(fork_begins, 1.0, t));
+            const double at_end = taken * smooth_step(fork_begins, 1.0, t);
+            Station s = station_on_path(from, i, arriving, flat, t, at_end, taken);
             s.radius = from.radius + smooth_step(-radius_overlap, 1.0 + radius_overlap, t) * taken *
                                          (radius_at(i) - from.radius);
+            s.radius *= lumps_at(i, t, at_end);
             stations.push_back(s);
         }
         return stations;
@@ -473,10 +521,10 @@ class TubeBuilder {
             // A single ring is placed so that cylinder and cone have the area of cylinder and round
             // end seen from the side.
             if (rings == 1) t = std::max(latest_ring, 1.0 - round_end * round);
-            Station s = station_on_path(from, i, arriving, from.flat, t, 0.0);
+            Station s = station_on_path(from, i, arriving, from.flat, t, 0.0, 1.0);
             s.radius = from.radius + t * (tip_radius - from.radius);
             const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
-            s.radius *= end.eaten + (1.0 - end.eaten) * taper;
+            s.radius *= (end.eaten + (1.0 - end.eaten) * taper) * lumps_at(i, t, 0.0);
             if (rings > 1 && t > 1.0 - round) {
                 const double x = (t - 1.0 + round) / round;
                 s.radius *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
@@ -541,6 +589,12 @@ class TubeBuilder {
         };
         for (const std::size_t fork : chain.forks) extend_to(chain.nodes[fork]);
         extend_to(chain.nodes.back());
+        if (!chain.root) {
+            const double deep = std::min(first_depth * begin.radius,
+                                         0.8 * glm::distance(stations[0].at, stations[1].at));
+            stations[1].radius *= first_ring;
+            stations[1].at -= deep * stations[0].along;
+        }
         set_sides(stations, chain.root ? begin.side : node(parent).across);
         if (!chain.root) set_turns(stations, built_[parent], segment_turn(first));
         for (const auto& [end, station] : ends) built_[end] = stations[station];
@@ -624,7 +678,7 @@ class TubeBuilder {
         const auto end = static_cast<std::uint32_t>(mesh_.positions.size());
         mesh_.positions.emplace_back(tip.place);
         mesh_.normals.emplace_back(tip.heading);
-        colours_.push_back(tip.from_tip);
+        colours_.push_back(colour_at(chain.nodes.back()));
         // The first ring of the tube above a trunk is the last one of the trunk.
         const std::size_t begun = chain.root ? tube.stations.size() - 1 : 0;
         tube.rows.push_back({base, row, false, begun, stations.size()});

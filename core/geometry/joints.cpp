@@ -16,7 +16,16 @@ namespace {
 
 /// Distance from another tube at which normals begin to turn to it, and colours to take on its own,
 /// in radii of the thinner one.
-constexpr double normal_reach = 1.1, colour_reach = 2.2;
+constexpr double normal_reach = 1.4, colour_reach = 2.2;
+
+/// How far a fillet raises both surfaces where they cross, in `normal_reach`: a quarter, as of the
+/// smooth minimum of both distances. It begins with the angle between them and is whole at one whose
+/// cosines these are, so that no collar swells round a tube where another begins inside it.
+constexpr double fillet = 0.25, fillet_begins = 0.97, fillet_whole = 0.3;
+
+/// How far from its first section a tube begins to count as a neighbour, in its radius there: that
+/// end is round, hidden, and no part of what is seen.
+constexpr double begins_after = 0.9;
 
 /// Distance behind the nearest section of a tube within which others count too, in the radius of its
 /// thickest.
@@ -34,6 +43,8 @@ struct Nearness {
 class TubeSolid {
   public:
     explicit TubeSolid(const Tube& tube) {
+        if (tube.parent != Tube::none && tube.shown < tube.stations.size())
+            begin_ = tube.stations[tube.shown];
         for (std::size_t i = tube.shown; i < tube.stations.size(); ++i) {
             const Station& station = tube.stations[i];
             sections_.push_back({station.at, glm::inverse(station.shape()), station.radius,
@@ -53,6 +64,13 @@ class TubeSolid {
     [[nodiscard]] bool may_reach(const glm::dvec3& place, double distance) const {
         return glm::all(glm::greaterThanEqual(place, low_ - distance)) &&
                glm::all(glm::lessThanEqual(place, high_ + distance));
+    }
+
+    /// Returns how far a place is beyond the beginning of the tube inside its parent: 0..1.
+    [[nodiscard]] double begun_at(const glm::dvec3& place) const {
+        if (!(begin_.radius > 0.0)) return 1.0;
+        return smooth_step(0.0, begins_after * begin_.radius,
+                           glm::dot(place - begin_.at, begin_.along));
     }
 
     /// Returns how a place lies to the solid; the distance is of first order in the flattening.
@@ -124,6 +142,7 @@ class TubeSolid {
     }
 
     std::vector<Section> sections_;
+    Station begin_;  ///< where it leaves its parent; of radius 0 if it has none
     glm::dvec3 low_{std::numeric_limits<double>::infinity()};
     glm::dvec3 high_{-std::numeric_limits<double>::infinity()};
     double thickest_ = 0.0;  ///< greatest radius of its stations, metres
@@ -131,24 +150,36 @@ class TubeSolid {
     double thinnest_ = std::numeric_limits<double>::infinity();  ///< least one
 };
 
-/// How a vertex looks: its unit normal and its Station::colour.
+/// How a vertex looks: its unit normal and its Station::colour; and how far a fillet raises it,
+/// metres.
 struct Look {
     glm::dvec3 normal;
     double colour;
+    double raised = 0.0;
 };
 
-/// Returns by how much another tube changes the look of a vertex: where the surfaces cross, both take
-/// the mean.
+/// How the look of a vertex depends on another tube where the surfaces cross.
+struct Dependence {
+    double share = 0.0;  ///< of the other's look
+    double begun = 0.0;  ///< how far the two part there, 0..1
+};
+
+/// Returns by how much another tube changes the look of a vertex.
 ///
 /// radius  of the tube of the vertex there, metres
-Look change(const Look& look, double radius, const Nearness& other) {
+Look change(const Look& look, double radius, const Nearness& other, const Dependence& by) {
     const double thin = std::min(radius, other.radius);
     const auto share = [&](double reach) {
         const double most = reach * thin;
-        return most > 0.0 ? 0.5 * std::max(1.0 - std::abs(other.distance) / most, 0.0) : 0.0;
+        return most > 0.0 ? std::max(1.0 - std::abs(other.distance) / most, 0.0) : 0.0;
     };
-    return {share(normal_reach) * (other.gradient - look.normal),
-            share(colour_reach) * (other.colour - look.colour)};
+    // Surfaces that run side by side need no fillet.
+    const double angle =
+        1.0 - smooth_step(fillet_whole, fillet_begins, glm::dot(other.gradient, look.normal));
+    const double near = share(normal_reach);
+    return {by.share * near * (other.gradient - look.normal),
+            by.share * share(colour_reach) * (other.colour - look.colour),
+            fillet * normal_reach * thin * angle * by.begun * near * near};
 }
 
 /// Returns for each tube the others that it is united with: its parent, its children, and the other
@@ -161,7 +192,12 @@ std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Tube>& tub
     };
     for (std::size_t i = 0; i < tubes.size(); ++i) {
         const std::size_t parent = tubes[i].parent;
-        if (parent == Tube::none) continue;
+        if (parent == Tube::none) {
+            // Trunks rise from one foot.
+            for (std::size_t other = 0; other < i; ++other)
+                if (tubes[other].parent == Tube::none) join(i, other);
+            continue;
+        }
         join(i, parent);
         for (std::size_t other = parent + 1; other < i; ++other)
             if (tubes[other].parent == parent) join(i, other);
@@ -175,6 +211,13 @@ void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tu
     const std::vector<TubeSolid> solids(tubes.begin(), tubes.end());
     const auto neighbours = neighbours_of(tubes);
     std::vector<Nearness> sections;
+    // Both take the mean where they cross; where a tube begins it looks like its parent.
+    const auto dependence = [&](std::size_t tube, std::size_t other, const glm::dvec3& place) {
+        const double own = solids[tube].begun_at(place), its = solids[other].begun_at(place);
+        if (tubes[tube].parent == other) return Dependence{1.0 - 0.5 * own, own};
+        if (tubes[other].parent == tube) return Dependence{0.5 * its, its};
+        return Dependence{0.5 * own * its, own * its};
+    };
     const auto blend = [&](std::size_t tube, double radius, std::size_t vertex) {
         const glm::dvec3 place(mesh.positions[vertex]);
         const Look own{glm::dvec3(mesh.normals[vertex]), colours[vertex]};
@@ -183,9 +226,12 @@ void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tu
             const TubeSolid& solid = solids[other];
             const double reach = colour_reach * std::min(radius, solid.thickest());
             if (!solid.may_reach(place, reach)) continue;
-            const Look by = change(own, radius, solid.near(place, reach, sections));
-            sum = {sum.normal + by.normal, sum.colour + by.colour};
+            const Dependence depends = dependence(tube, other, place);
+            if (depends.share <= 0.0) continue;
+            const Look by = change(own, radius, solid.near(place, reach, sections), depends);
+            sum = {sum.normal + by.normal, sum.colour + by.colour, std::max(sum.raised, by.raised)};
         }
+        mesh.positions[vertex] = glm::vec3(place + sum.raised * own.normal);
         mesh.normals[vertex] = glm::vec3(unit_or(sum.normal, own.normal));
         colours[vertex] = std::clamp(sum.colour, 0.0, 1.0);
     };

@@ -9,11 +9,13 @@
 namespace sporeprint {
 
 /// Turns the normals of tubes near their joints towards the gradient of their smooth union, and gives
-/// colours the mean of both tubes, so that no line is seen where the surfaces cross. Each tube is
-/// united with its parent, its children, and the other children of its parent. Vertices are not
-/// moved: a mix has more rings than a single species, and both must bound the same solid.
+/// colours the mean of both tubes, so that no line is seen where the surfaces cross; and moves
+/// vertices outwards to that union, which fills the crease with a fillet. Each tube is united with
+/// its parent, its children, and the other children of its parent, a trunk with all others. What is
+/// added depends on the place alone: a mix has more rings than a single species, and both must bound
+/// the same solid.
 ///
-/// mesh     normals of the rows are changed
+/// mesh     normals and positions of the rows are changed
 /// colours  Station::colour per vertex of the mesh, 1 on trunks
 /// tubes    parents precede their children
 /// cost     O(vertices near joints x stations of their neighbours)

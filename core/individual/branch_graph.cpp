@@ -25,6 +25,7 @@ constexpr double whorl_rest = 0.06;
 // but for what slugs eat.
 struct NodeDraws {
     double length, angle, azimuth, x, y, z, side, onset, depth;
+    BranchGraph::Gnarl gnarl;
 };
 
 NodeDraws draws_of(std::uint32_t seed, const SeedShares& damage, std::uint32_t path) {
@@ -37,6 +38,11 @@ NodeDraws draws_of(std::uint32_t seed, const SeedShares& damage, std::uint32_t p
     d.y = random.symmetric();
     d.z = random.symmetric();
     d.side = random.symmetric() < 0.0 ? -1.0 : 1.0;
+    d.gnarl.bend = random.uniform(0.0, 2.0 * pi);
+    d.gnarl.swing = random.uniform(0.0, 2.0 * pi);
+    d.gnarl.lump = random.symmetric();
+    d.gnarl.knee = random.symmetric();
+    d.gnarl.colour = random.symmetric();
     MixedRandom eaten(damage, purposes::eaten_tips, path);
     d.onset = eaten.uniform();
     d.depth = eaten.uniform(0.35, 0.95);
@@ -195,6 +201,7 @@ class GraphBuilder {
             graph_.ruffle += share.weight * style.ruffle;
             graph_.web += share.weight * style.web;
             graph_.bluntness += share.weight * style.bluntness;
+            graph_.gnarl += share.weight * style.gnarl;
         }
         style_means_.height = exponential(log_height) * own_.size;
         graph_.height = style_means_.height;
@@ -208,6 +215,7 @@ class GraphBuilder {
         graph_.nodes.push_back(node);
         paths_.push_back(path);
         draws_.push_back(draws_of(seed_, damage_, path));
+        graph_.nodes.back().gnarl = draws_.back().gnarl;
         return static_cast<std::uint32_t>(graph_.nodes.size() - 1);
     }
 

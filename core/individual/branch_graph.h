@@ -35,6 +35,13 @@ constexpr std::size_t most_sparse_tips = 12;
 struct BranchGraph {
     static constexpr std::uint32_t none = 0xffffffffU;
 
+    /// How a segment deviates from an even tube, drawn by its way from the root.
+    struct Gnarl {
+        double bend = 0.0, swing = 0.0;  ///< directions across it, radians
+        double lump = 0.0, knee = 0.0;   ///< of its thickness between forks and at its end, -1..1
+        double colour = 0.0;             ///< -1..1
+    };
+
     /// The end of a segment, and that segment.
     struct Node {
         std::uint32_t parent = none;
@@ -54,6 +61,7 @@ struct BranchGraph {
         double eaten =
             /// 0..1: share of a terminal segment eaten by slugs, times how far it is terminal
             0.0;
+        Gnarl gnarl;
     };
     std::vector<Node> nodes;           ///< parents precede their children
     std::vector<std::uint32_t> roots;  ///< tops of the trunks: from the ground to the lowest fork
@@ -61,8 +69,8 @@ struct BranchGraph {
     double trunk = 0.0;                ///< metres, length of a trunk
     double trunk_radius = 0.0;         ///< metres
     double reach = 0.0;                ///< metres: greatest distance of its segments from the axis
-    double foot = 1.0, flatness = 0.0, web = 0.0, ruffle = 0.0,
-           bluntness = 0.0;  ///< see SegmentStyle
+    double foot = 1.0, flatness = 0.0, web = 0.0, ruffle = 0.0, bluntness = 0.0,
+           gnarl = 0.0;  ///< see SegmentStyle
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
     [[nodiscard]] bool is_tip(std::uint32_t node) const { return nodes[node].children[0] == none; }

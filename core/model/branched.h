@@ -39,6 +39,7 @@ struct SegmentStyle {
     double web = 0.3;
     double ruffle = 0.0;
     double bluntness = 0.6;
+    double gnarl = 0.0;
     double unfolding = 1.0;
 
     static constexpr void fields(auto visit) {
@@ -153,6 +154,11 @@ struct SegmentStyle {
                                   .min = 0,
                                   .max = 1,
                                   .doc = "0 for tips that taper to a point, 1 for round ends."});
+        visit(&L::gnarl, Info{.name = "gnarl",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "How crooked limbs are between their forks, and how uneven in "
+                                     "thickness: 0 are even tubes, 1 has knees and hollows."});
         visit(&L::unfolding, Info{.name = "unfolding",
                                   .min = 0,
                                   .max = 1,

@@ -134,7 +134,8 @@ TEST(Branches, SpinesHangBelowTheirSegments) {
     const Mesh bare = mesh_of(frilled(0.0, 0, 0)), spiny = mesh_of(frilled(0.0, 400, 0));
     EXPECT_EQ(pieces(spiny).size(), pieces(bare).size() + 400);
     // They make nothing higher, and the lowest segments deeper by at most their length and width.
-    EXPECT_EQ(bounds(spiny).max.y, bounds(bare).max.y);
+    // Without spines there are triangles for more rings.
+    EXPECT_NEAR(bounds(spiny).max.y, bounds(bare).max.y, 1e-4f);
     EXPECT_LE(bounds(spiny).min.y, bounds(bare).min.y);
     EXPECT_GT(bounds(spiny).min.y, bounds(bare).min.y - 0.014f);
 }
