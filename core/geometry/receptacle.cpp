@@ -43,17 +43,24 @@ constexpr double last_amount = 0.05, vanishing = 0.08;
 constexpr double most_inset = 0.82;
 
 /// Rounds in which the corners of a mesh are rounded.
-constexpr int rounding = 6;
+constexpr int rounding = 11;
 
 /// Lumps of a spongy arm: across it, and of its crest, in its own widths and thicknesses.
-constexpr double side_lumps = 0.16, crest_lumps = 0.13;
+constexpr double side_lumps = 0.3, crest_lumps = 0.2;
+
+/// Rounds in which lumps are evened along an arm.
+constexpr int lump_rounds = 4;
+
+/// Exponents of the section of an arm, which is flattened with round edges: of the sine and cosine of
+/// its angle, and of their share in the normal.
+constexpr double section_power = 0.62, normal_power = 1.4;
 
 /// Where round an arm, from its outer to its inner crest, the gleba begins and how soon it covers
 /// all; the share of the veil's strip that paints what is outside it.
 constexpr double gleba_begins = 0.5, gleba_border = 0.2, outer_paint = 0.35;
 
-/// Samples of an edge of a mesh at the finest level; others use every second, fourth or eighth.
-constexpr int edge_samples = 8;
+/// Samples of an edge of a mesh at the finest level; others use every second, sixth or twelfth.
+constexpr int edge_samples = 12;
 
 /// Resolution of solids by the columns of their level of detail.
 struct Resolution {
@@ -62,13 +69,13 @@ struct Resolution {
     int edge_step, section_samples;  ///< every n-th sample of an edge; bands from crest to crest
     int most_meshes;                 ///< of a net; the arms of fewer meshes are wider
 };
-constexpr std::array<Resolution, 7> resolutions = {{{64, 6, 16, 1, 4, 40},
+constexpr std::array<Resolution, 7> resolutions = {{{64, 6, 16, 1, 6, 40},
                                                     {48, 5, 12, 2, 3, 40},
-                                                    {36, 4, 8, 4, 4, 40},
-                                                    {28, 4, 8, 4, 3, 40},
-                                                    {20, 4, 8, 8, 3, 40},
-                                                    {12, 3, 6, 8, 2, 25},
-                                                    {0, 0, 0, 8, 2, 5}}};
+                                                    {36, 4, 8, 6, 4, 40},
+                                                    {28, 4, 8, 6, 3, 40},
+                                                    {20, 4, 8, 12, 3, 40},
+                                                    {12, 3, 6, 12, 2, 25},
+                                                    {0, 0, 0, 12, 2, 5}}};
 
 const Resolution& resolution_of(const Detail& detail) { return by_columns(resolutions, detail); }
 
@@ -267,7 +274,7 @@ std::vector<Crest> arm_between(const SphereCells& net, std::size_t from, std::si
         const glm::dvec3 direction =
             unit_or((1.0 - t) * net.corners[from] + t * net.corners[to], glm::dvec3(0.0, 1.0, 0.0));
         const EggShape::Point at = egg.at(direction);
-        lump = 0.6 * lump + crest_lumps * random.symmetric();
+        lump = 0.75 * lump + 0.66 * crest_lumps * random.symmetric();
         // At its ends an arm meets two others, and all three have the same thickness there.
         const bool is_end = i == 0 || i == edge_samples;
         crests.push_back({at.position, at.normal, 0.5 * thickness * (is_end ? 1.0 : 1.0 + lump)});
@@ -341,22 +348,34 @@ void append_mesh(Mesh& mesh, const NetMesh& one, const OrnamentContext& context,
     // Lumps are drawn for all samples, so that every level has the same.
     std::vector<double> lumps;
     for (std::size_t i = 0; i < one.border.size(); ++i) lumps.push_back(random.symmetric());
+    std::vector<double> before_round;
+    for (int round = 0; round < lump_rounds; ++round) {
+        before_round = lumps;
+        for (std::size_t i = 0; i < lumps.size(); ++i)
+            lumps[i] = 0.5 * before_round[i] +
+                       0.25 * (before_round[(i + 1) % lumps.size()] +
+                               before_round[(i + lumps.size() - 1) % lumps.size()]);
+    }
     for (int band = 0; band <= bands; ++band) {
         const SineCosine round = sine_cosine(pi * band / bands);
         const bool is_crest = band == 0 || band == bands;
-        const double across = is_crest ? 0.0 : round.sine;
+        const double across = is_crest ? 0.0 : power(round.sine, section_power);
+        const double up =
+            std::abs(round.cosine) > 1e-9 ? power(std::abs(round.cosine), section_power) : 0.0;
         for (std::size_t j = 0; j <= columns; ++j) {
             const std::size_t i = (j % columns) * step;
-            const std::size_t next = (i + 1) % lumps.size();
             const Crest& crest = one.border[i];
             const glm::dvec3 to_rim = one.rim[i] - crest.position;
-            const double lump = 0.5 * (lumps[i] + lumps[next]);
-            const double height = is_crest ? (band == 0 ? 1.0 : -1.0) : round.cosine;
+            const double lump = lumps[i];
+            const double side = round.cosine < 0.0 ? -1.0 : 1.0;
+            const double height = is_crest ? (band == 0 ? 1.0 : -1.0) : side * up;
             glm::dvec3 place = crest.position +
                                across * (1.0 + side_lumps * lump * across) * to_rim +
                                height * crest.half * crest.normal;
             const glm::dvec3 normal =
-                height * crest.normal + across * unit_or(to_rim, crest.normal);
+                (is_crest ? height : side * power(std::max(up, 1e-9), normal_power)) *
+                    crest.normal +
+                (is_crest ? 0.0 : power(across, normal_power)) * unit_or(to_rim, crest.normal);
             const std::size_t after = (i + step) % one.border.size(),
                               before = (i + one.border.size() - step) % one.border.size();
             const glm::dvec3 ahead =

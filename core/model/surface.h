@@ -279,6 +279,7 @@ struct VeilSurface {
     Colour colour = {248, 244, 230};
     Colour tip = {240, 226, 190};
     double roughness = 0.85;
+    double pits = 0.0;
 
     static constexpr void fields(auto visit) {
         visit(&VeilSurface::colour,
@@ -288,6 +289,12 @@ struct VeilSurface {
                    .doc = "Colour of the edge of the ring and the tips of warts and scales."});
         visit(&VeilSurface::roughness,
               Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+        visit(&VeilSurface::pits,
+              Info{.name = "pits",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How deeply the sponge of a receptacle's arms is pitted and chambered; 0 "
+                          "is smooth."});
     }
     bool operator==(const VeilSurface&) const = default;
 };

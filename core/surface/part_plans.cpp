@@ -378,6 +378,7 @@ VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
     plan.colour = light_of(params.surface.veil.colour);
     plan.tip = light_of(params.surface.veil.tip);
     plan.roughness = single(params.surface.veil.roughness);
+    plan.pits = single(params.surface.veil.pits);
     return plan;
 }
 

@@ -259,12 +259,18 @@ inline constexpr double crack_plates = 8.0;
 inline constexpr float net_columns = 46.0F;
 inline constexpr float net_stretch = 2.3F;
 
+/// Lumps, chambers and pits of a sponge along the strip of the veil, and how much smaller they are
+/// across it than the strip's own proportions say.
+inline constexpr int lump_columns = 14, chamber_columns = 44, pit_columns = 110;
+inline constexpr float pit_rows = 1.0F;
+
 struct VeilPlan {
     std::array<std::uint32_t, 4> seed{};
     float texel = 0.0F;   ///< in lengths of the strip
     float across = 0.1F;  ///< width of the strip over its length
     Light colour, tip;
     float roughness = 0.85F;
+    float pits = 0.0F;  ///< depth of the pits of a sponge, 0..1
 };
 
 /// The face of a blade, base to edge; lengths are relative to that of the blade.

@@ -305,6 +305,32 @@ HWY_INLINE void veil_fields(const VeilPlan& plan, VF turn, VF across, VF* fields
     fields[veil_cloud] = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
 }
 
+/// Pits of a sponge: chambers of two sizes with thin walls between them. They replace threads and
+/// the fold of a ring, which a sponge has not.
+HWY_INLINE void add_pits(const VeilPlan& plan, VF turn, VF across, Texel& texel) {
+    const VF one = set(1.0F), depth = set(plan.pits);
+    const auto pits = [&](int columns, std::uint32_t seed) {
+        const VF number = set(static_cast<float>(columns));
+        const VF place = across * number * set(pit_rows * plan.across);
+        return periodic_noise2(turn * number, place, columns, seed) *
+               shown(set(1.0F / (static_cast<float>(columns) * plan.texel)), 4.0F);
+    };
+    const VF wide = pits(chamber_columns, plan.seed[1]), fine = pits(pit_columns, plan.seed[3]);
+    const VF broad = pits(lump_columns, plan.seed[0]);
+    // Walls are where the noise is about nought.
+    const VF chamber = smooth(hn::Abs(wide), 0.04F, 3.0F), pit = smooth(fine, 0.02F, 2.6F);
+    const VF deep = hn::Min(chamber * set(0.55F) + pit * set(0.6F), one) * depth;
+    texel.colour = mix(rgb(plan.colour), rgb(plan.tip),
+                       smooth(across + broad * set(0.16F) + wide * set(0.1F), 0.35F, 2.2F));
+    texel.colour = shaded(texel.colour,
+                          one + broad * set(0.16F) * depth + set(0.1F) * depth - deep * set(0.42F));
+    texel.height = (broad * set(0.5F / lump_columns) - chamber * set(0.3F / chamber_columns) -
+                    pit * set(0.34F / pit_columns)) *
+                   depth;
+    texel.occlusion = one - deep * set(0.5F);
+    texel.roughness = set(plan.roughness) + deep * set(0.15F);
+}
+
 /// Returns a texel of the veil. turn: 0..1 along the strip; across: 0 at the attachment, 1 at the
 /// edge. Heights are in lengths of the strip.
 HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* fields) {
@@ -325,6 +351,7 @@ HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* 
     // The fold at the attachment is in shade.
     out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) +
                     hn::Min(thread, set(0.0F)) * set(0.2F);
+    if (plan.pits > 0.0F) add_pits(plan, turn, across, out);
     return out;
 }
 
