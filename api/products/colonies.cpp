@@ -12,6 +12,8 @@
 #include "api/products/surfaces.h"
 #include "api/products/wood.h"
 #include "core/grow/colony.h"
+#include "core/grow/colony_estimate.h"
+#include "core/grow/colony_individuals.h"
 #include "core/grow/impostor.h"
 #include "core/grow/names.h"
 #include "core/grow/variants.h"

@@ -13,27 +13,6 @@
 
 namespace sporeprint {
 
-/// Returns an individual without variation, from which the lengths of a colony follow.
-///
-/// throws  InvalidInput, Impossible as resolve()
-[[nodiscard]] Individual typical_individual(const ColonySpec& spec, const Atlas& atlas,
-                                            const Caches& caches = {});
-
-/// Returns the spec at the whole level of detail whose expected number of drawn triangles, every
-/// instance counted, is nearest to `triangles`, without that; a spec without it unchanged.
-///
-/// typical  typical_individual() of the spec
-/// throws   as estimate()
-[[nodiscard]] ColonySpec at_level(ColonySpec spec, const Individual& typical, const Atlas& atlas);
-
-/// Returns the approximate numbers of vertices and triangles in the file (seldom too low), texels
-/// and bytes. Nothing is built.
-///
-/// typical  typical_individual() of the spec
-/// throws   as colony_traits(); Impossible ("/branch_distance") for roots with too many nodes
-[[nodiscard]] Estimate estimate(const ColonySpec& spec, const Individual& typical,
-                                const Atlas& atlas);
-
 /// The meshes of a colony at a level of detail below the requested one.
 struct ColonyLevel {
     Mesh skin, wood;
@@ -62,25 +41,11 @@ struct Colony {
 [[nodiscard]] Colony colony_parts(const ColonySpec& spec, const Individual& typical,
                                   const Atlas& atlas, const ExecutionContext& execution = {});
 
-/// Returns the estimate of a built colony, with exact vertex and triangle counts.
-///
-/// spec  at_level() of a request
-[[nodiscard]] Estimate measured(const ColonySpec& spec, const Colony& colony);
-
 /// Returns the bounding box of all instances of a colony.
 [[nodiscard]] Bounds bounds(const Colony& colony);
 
 /// Returns the number of triangles drawn at the requested level of detail, counting every instance.
 [[nodiscard]] std::uint64_t instanced_triangles(const Colony& colony);
-
-/// Returns the requested level of detail and all below it, with estimated counts. A colony is
-/// replaced as a whole: its stems are one mesh, and each cap is cut to fit the stem of its level.
-///
-/// typical  typical_individual() of the spec
-/// box      of the colony
-/// throws   as estimate()
-[[nodiscard]] std::vector<Level> levels_of(const ColonySpec& spec, const Individual& typical,
-                                           const Atlas& atlas, const Bounds& box);
 
 /// Returns the spec of the mushroom whose images all members of a colony use, with the variants of
 /// the colony.

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/grow/colony.h"
+#include "core/grow/colony_individuals.h"
 
 namespace {
 

@@ -13,6 +13,8 @@
 
 #include "core/collision/convex_hull.h"
 #include "core/grow/colony.h"
+#include "core/grow/colony_estimate.h"
+#include "core/grow/colony_individuals.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/tree.h"

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "core/grow/colony_estimate.h"
+#include "core/grow/colony_individuals.h"
 #include "core/grow/variants.h"
 #include "core/params/corners.h"
 #include "core/params/query.h"

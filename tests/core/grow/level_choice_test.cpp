@@ -12,6 +12,8 @@
 
 #include "core/geometry/budget.h"
 #include "core/grow/colony.h"
+#include "core/grow/colony_estimate.h"
+#include "core/grow/colony_individuals.h"
 #include "core/grow/leaf.h"
 #include "core/grow/levels.h"
 #include "core/grow/mushroom.h"

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/grow/colony.h"
+#include "core/grow/colony_estimate.h"
+#include "core/grow/colony_individuals.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/tree.h"
