@@ -19,8 +19,6 @@ namespace {
 /// Distance of the end of a stem's skin below its junction, in radii; its round end reaches half a
 /// radius further.
 constexpr double short_of_cap = 0.8;
-/// Depth in the ground at which a stem without root starts, in radii.
-constexpr double below_ground = 1.6;
 /// Least length of a stem's segment, in radii: cleaning would detach shorter ones; on a root the
 /// fork takes up additional length.
 constexpr double least_segment = 2.7, least_on_root = 3.6;
@@ -77,6 +75,49 @@ class MirroredRepeat {
     double length_ = 1.0;
 };
 
+/// Texture coordinates along a stem: what its image shows below the ground is in the ground, and the
+/// rest above it.
+class StemImage {
+  public:
+    /// first, last   vertices of the strip
+    /// length        of the strip
+    /// upwards       it begins at its lower end
+    /// painted_from  share of the image that shows what is buried
+    StemImage(const SkinnedSkeleton& made, std::size_t first, std::size_t last, double length,
+              bool upwards, double painted_from)
+        : length_(length), upwards_(upwards), painted_from_(painted_from) {
+        double below = 0.0, above = length;
+        for (std::size_t i = first; i < last; ++i) {
+            const double height = height_of(made.places[i].y);
+            if (made.mesh.positions[i].y < 0.0F)
+                below = std::max(below, height);
+            else
+                above = std::min(above, height);
+        }
+        // Rings of a slanting stem are partly in the ground.
+        ground_ = below > 0.0 ? std::min(0.5 * (below + above), 0.5 * length) : 0.0;
+    }
+
+    /// along  place along the strip
+    [[nodiscard]] double at(double along) const {
+        const double height = height_of(along);
+        if (height < ground_) return painted_from_ * height / ground_;
+        return painted_from_ +
+               (1.0 - painted_from_) * (height - ground_) / std::max(length_ - ground_, 1e-9);
+    }
+
+  private:
+    double length_, ground_ = 0.0;
+    bool upwards_;
+    double painted_from_;
+
+    /// Returns the distance from the lower end.
+    [[nodiscard]] double height_of(double along) const {
+        const double within = std::min(std::max(along, 0.0), length_);
+        return upwards_ ? within : length_ - within;
+    }
+};
+
 void add_texture_coordinates(SkinnedSkeleton& made, const SkinOptions& options) {
     Mesh& mesh = made.mesh;
     const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
@@ -110,14 +151,15 @@ void add_texture_coordinates(SkinnedSkeleton& made, const SkinOptions& options) 
             sum_ends += along;
         }
         const bool upwards = begins * sum_ends <= ends * sum_begins;
+        const StemImage image(made, first, last, length, upwards, options.painted_from);
         const MirroredRepeat root(rings, options.painted_length);
         for (std::size_t i = first; i < last; ++i) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
             const double share =
-                stem ? (upwards ? along / length : 1.0 - along / length) : root.at(along);
+                stem ? image.at(along)
+                     : options.painted_from + (1.0 - options.painted_from) * root.at(along);
             const TexturePoint at =
-                strip_point(chart, options.painted_from + (1.0 - options.painted_from) * share,
-                            std::min(std::max(made.places[i].x, 0.0), 1.0));
+                strip_point(chart, share, std::min(std::max(made.places[i].x, 0.0), 1.0));
             mesh.texture_coordinates[i] = {at.u, at.v};
         }
     }
@@ -205,7 +247,7 @@ Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>
             const glm::dvec3 way = glm::normalize(member.rise);
             below = static_cast<std::uint32_t>(skeleton.nodes.size());
             skeleton.nodes.push_back(
-                {place.foot - below_ground * place.radius * way, place.radius});
+                {place.foot - stem_below_ground * place.radius * way, place.radius});
         }
         const double least = on_roots ? least_on_root : least_segment;
         const int fitting =

@@ -9,6 +9,9 @@
 
 namespace sporeprint {
 
+/// Depth in the ground at which a stem without root starts, in radii.
+inline constexpr double stem_below_ground = 1.6;
+
 /// Returns the skeleton of a colony: its roots, if they are visible, and the stems of all members
 /// that have one. It is the input of colony_skin(), which cleans it.
 ///
@@ -47,7 +50,7 @@ struct ColonySkin {
 };
 
 /// Cleans a skeleton and returns its surface. The texture coordinates of a stem cover
-/// the image of one stem, from ground to top. Along a root the image is repeated once per
+/// the image of one stem, with the ground of the image at the ground. Along a root the image is repeated once per
 /// painted_length with mirrored repeat; it is mirrored at the ring of vertices nearest to the end
 /// of each image.
 ///

@@ -147,9 +147,10 @@ struct ColonyParams {
         visit(&P::variants, variants_info);
         visit(&P::base,
               Info{.name = "base",
-                   .doc = "natural: soil and the felt of the mycelium cling to the foot of every "
-                          "stem, as much as is usual for the species; clean: as if it were "
-                          "washed. A colony has no clods of soil, which a lone mushroom has."});
+                   .doc = "natural: every stem stands in a clod of soil with litter, a tuft in one "
+                          "clod, and soil and the felt of the mycelium cling to it, as much as is "
+                          "usual for the species; clean: as if it were washed. What stands on "
+                          "wood or on visible roots has no soil below it."});
         visit(&P::file, file_info);
         visit(&P::instancing,
               Info{.name = "instancing",

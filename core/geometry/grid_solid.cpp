@@ -18,6 +18,19 @@ TexturePoint point_of(const GridSolid& solid, double round, double up) {
                        from_v + up * (to_v - from_v));
 }
 
+/// Returns true if the window is shown backwards at a column.
+bool is_back(const GridSolid& solid, int column) {
+    return (column * solid.folds / solid.columns) % 2 != 0;
+}
+
+/// Returns where a column is in the window of a solid, 0..1.
+double column_share(const GridSolid& solid, int column) {
+    if (solid.folds == 1) return static_cast<double>(column) / solid.columns;
+    const int within = column * solid.folds % solid.columns;
+    const double share = static_cast<double>(within) / solid.columns;
+    return is_back(solid, column) ? 1.0 - share : share;
+}
+
 /// Returns where a row is in the window of a solid, 0..1.
 double row_share(const GridSolid& solid, int row) {
     const int last = solid.rows - 1;
@@ -83,19 +96,20 @@ void append_grid_vertices(Mesh& mesh, const GridSolid& solid, const glm::dvec3& 
             mesh.positions.emplace_back(p[at(i, j)]);
             mesh.normals.emplace_back(normal);
             if (!textured) continue;
-            const TexturePoint uv =
-                point_of(solid, static_cast<double>(j) / solid.columns, row_share(solid, i));
+            const TexturePoint uv = point_of(solid, column_share(solid, j), row_share(solid, i));
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
             const int ahead = j < solid.columns ? j + 1 : 1,
                       behind = j > 0 ? j - 1 : solid.columns - 1;
             const int side = pointed && i == solid.rows - 1 ? i - 1 : i;
-            const glm::dvec3 tangent = p[at(side, ahead)] - p[at(side, behind)];
+            const bool back = is_back(solid, j);
+            const glm::dvec3 tangent =
+                (back ? -1.0 : 1.0) * (p[at(side, ahead)] - p[at(side, behind)]);
             // Columns run counter-clockwise with the tip above, so image-up points to the base; the
             // other side of a ring, and of a crest, is mirrored.
             const bool mirrored =
                 solid.loops ? i >= solid.rows / 2 : solid.crest > 0 && i > solid.crest;
             mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
-                                       mirrored ? 1.0F : -1.0F);
+                                       mirrored != back ? 1.0F : -1.0F);
         }
 }
 
@@ -113,7 +127,7 @@ void append_base(Mesh& mesh, const GridSolid& solid, const glm::dvec3& fallback,
         mesh.positions.emplace_back(p[at(j)]);
         mesh.normals.emplace_back(below);
         if (!textured) continue;
-        const TexturePoint uv = point_of(solid, static_cast<double>(j) / solid.columns, 0.0);
+        const TexturePoint uv = point_of(solid, column_share(solid, j), 0.0);
         mesh.texture_coordinates.emplace_back(uv.u, uv.v);
         mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(1)] - p[at(0)])), 1.0F);
     }

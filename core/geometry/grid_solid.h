@@ -52,6 +52,9 @@ struct GridSolid : SolidGrid {
     /// The row that shows the far side of the window, beyond which it is mirrored back to its near
     /// side at the tip; 0: the last row shows the far side. Not of a ring, which is always mirrored.
     int crest = 0;
+    /// How often the window is shown round the solid, forth and back in turn, so that texels of a wide
+    /// solid are not drawn out: 1, or an even divisor of the columns.
+    int folds = 1;
 };
 
 /// Appends a solid, painted by the strip of its part: round it along the columns, from its base to

@@ -86,6 +86,8 @@ struct Resolution {
     int least_columns;
     SolidGrid clod, lump, litter_grid, strand, crumb;
     double lumps, litter;
+    double crumbs = crumbs_per_lump;  ///< for each lump of the style
+    int folds = 1;                    ///< of the clod's image
 };
 constexpr std::array<Resolution, 4> resolutions = {
     {{72, {21, 72, false}, {4, 5, false}, {}, {8, 3, false}, {3, 5, false}, 1.0, 1.0},
@@ -98,8 +100,47 @@ SolidGrid grid_of(const LitterForm& form, const Resolution& resolution) {
     return resolution.litter_grid.rows > 0 ? resolution.litter_grid : form.grid;
 }
 
-int built(int count, double share, const Detail& detail) {
-    return static_cast<int>(std::ceil(detail.ground * share * count));
+/// The same for the ground of a colony by ground_rows, round one foot of many and round all of a
+/// tuft. Nobody looks below a colony, so strands are the first to be left out.
+constexpr std::array<Resolution, ground_rows> rows_apart = {
+    {resolutions[0],
+     {0, {8, 18, false}, {3, 4, false}, {4, 4, false}, {}, {3, 4, false}, 0.15, 0.7, 0.25},
+     {0, {6, 12, false}, {3, 4, false}, {3, 3, false}, {}, {}, 0.06, 0.4},
+     {0, {5, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
+     {0, {4, 6, false}, {}, {}, {}, {}, 0.0, 0.0},
+     {0, {3, 5, false}, {}, {}, {}, {}, 0.0, 0.0}}};
+constexpr std::array<Resolution, ground_rows> rows_fused = {
+    {{0,
+      {15, 60, false},
+      {4, 5, false},
+      {5, 4, false},
+      {8, 3, false},
+      {3, 5, false},
+      1.0,
+      1.0,
+      2.0,
+      4},
+     {0, {9, 36, false}, {3, 4, false}, {4, 4, false}, {}, {3, 4, false}, 0.4, 0.8, 0.5, 4},
+     {0, {6, 24, false}, {3, 4, false}, {3, 3, false}, {}, {}, 0.2, 0.5, 0.0, 4},
+     {0, {5, 16, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15, 0.0, 4},
+     {0, {4, 14, false}, {}, {}, {}, {}, 0.0, 0.0, 0.0, 2},
+     {0, {4, 8, false}, {}, {}, {}, {}, 0.0, 0.0, 0.0, 4}}};
+
+const Resolution& resolution_of(const ColonyGroundDetail& detail) {
+    const auto row = static_cast<std::size_t>(detail.row);
+    return detail.fused ? rows_fused[row] : rows_apart[row];
+}
+
+/// The soil between the stems of a tuft by its rows, from its base to its top: share of the way from
+/// the middle to the foot, and height in rises of the soil.
+constexpr std::array<glm::dvec2, 5> bed_rows = {
+    {{1.02, -0.5}, {0.94, 0.9}, {0.66, 1.3}, {0.3, 1.15}, {0.0, 1.3}}};
+
+/// How far the heights of its corners stray, in themselves.
+constexpr double bed_stray = 0.35;
+
+int built(int count, double of_level, double share) {
+    return static_cast<int>(std::ceil(share * of_level * count));
 }
 
 /// The pieces that a level builds of one style.
@@ -107,13 +148,17 @@ struct Built {
     int clods = 0, lumps = 0, pieces = 0, strands = 0, crumbs = 0;
 };
 
-Built built_of(const GroundStyle& style, const Detail& detail) {
-    const Resolution& resolution = by_columns(resolutions, detail);
-    const bool has_clod = style.soil.lumps > 0 && detail.ground > 0.0;
-    return {has_clod ? 1 : 0, built(style.soil.lumps, resolution.lumps, detail),
-            built(style.litter.pieces, resolution.litter, detail),
-            built(style.strands.count, resolution.lumps, detail),
-            resolution.crumb.rows > 0 ? built(style.soil.lumps, crumbs_per_lump, detail) : 0};
+Built built_of(const GroundStyle& style, const Resolution& resolution, double share) {
+    const bool has_clod = style.soil.lumps > 0 && share > 0.0;
+    return {has_clod ? 1 : 0, built(style.soil.lumps, resolution.lumps, share),
+            built(style.litter.pieces, resolution.litter, share),
+            resolution.strand.rows > 0 ? built(style.strands.count, resolution.lumps, share) : 0,
+            resolution.crumb.rows > 0 ? built(style.soil.lumps, resolution.crumbs, share) : 0};
+}
+
+/// Returns the grid of the soil between the stems of a tuft.
+SolidGrid bed_of(const Resolution& resolution) {
+    return {static_cast<int>(bed_rows.size()), resolution.clod.columns, false};
 }
 
 /// A place between two neighbouring entries of a table.
@@ -180,6 +225,17 @@ class Clod {
                 unit_or((1.0 - t) * from.outwards + t * to.outwards, from.outwards)};
     }
 
+    /// Returns a point between the middle and the foot.
+    ///
+    /// out   share of the way to the foot
+    /// high  in rises of the soil
+    [[nodiscard]] glm::dvec3 between(double out, double high, double angle) const {
+        const glm::dvec3 foot = foot_(0.0, angle).place;
+        const glm::dvec3 place(lowest_.x + out * (foot.x - lowest_.x), rise_ * high,
+                               lowest_.z + out * (foot.z - lowest_.z));
+        return lowest_ + grown_ * (place - lowest_);
+    }
+
   private:
     double reach_, rise_, grown_;
     const Foot& foot_;
@@ -218,22 +274,26 @@ class Clod {
 /// Builds the solids of one layer.
 class GroundBuilder {
   public:
-    GroundBuilder(Mesh& mesh, const GroundLayer& layer, const Foot& foot, const Detail& detail,
-                  std::uint32_t seed, bool textured, bool keep_absent)
+    /// share  of the pieces of the resolution that is built
+    GroundBuilder(Mesh& mesh, const GroundLayer& layer, const Foot& foot,
+                  const Resolution& resolution, double share, std::uint32_t seed, bool textured,
+                  bool keep_absent)
         : mesh_(mesh),
           style_(layer.style),
           weight_(layer.weight),
           stream_(layer.stream),
           seed_(seed),
-          detail_(detail),
-          resolution_(by_columns(resolutions, detail)),
+          share_(share),
+          resolution_(resolution),
           textured_(textured),
           drawn_(layer.weight > 0.0 || keep_absent),
           clod_(layer, foot, random(0, -1)) {}
 
-    void add() {
-        const Built built = built_of(style_, detail_);
+    /// bed  adds the soil between the stems of a tuft
+    void add(bool bed = false) {
+        const Built built = built_of(style_, resolution_, share_);
         if (built.clods > 0) add_clod();
+        if (built.clods > 0 && bed) add_bed();
         for (int i = 0; i < built.lumps; ++i) add_lump(i);
         for (int i = 0; i < built.pieces; ++i) add_piece(i);
         for (int i = 0; i < built.strands; ++i) add_strand(i);
@@ -245,7 +305,7 @@ class GroundBuilder {
     const GroundStyle& style_;
     double weight_;
     std::uint32_t stream_, seed_;
-    const Detail& detail_;
+    double share_;
     const Resolution& resolution_;
     bool textured_, drawn_;
     Clod clod_;
@@ -264,12 +324,13 @@ class GroundBuilder {
     /// from    0..1, where the piece begins in what is left of the strip and of the band
     /// share   of the strip's length
     /// across  share of the band's width
-    /// crest   as that of a GridSolid
+    /// crest, folds  as those of a GridSolid
     void append_solid(const SolidGrid& grid, std::size_t band, double from, double share,
                       std::vector<glm::dvec3>& corners, const glm::dvec3& normal,
-                      double across = 1.0, int crest = 0) {
+                      double across = 1.0, int crest = 0, int folds = 1) {
         GridSolid solid{grid, Part::ground, {}, {}};
         solid.crest = crest;
+        solid.folds = folds;
         solid.window = StripPiece{band, from, share, across}.window();
         solid.corners = std::move(corners);
         append(mesh_, solid, normal, textured_, drawn_);
@@ -299,7 +360,26 @@ class GroundBuilder {
         }
         // The strip is too narrow for the whole way down.
         const int crest = (edge_row(grid) + grid.rows - 1) / 2;
-        append_solid(grid, 0, 0.0, 1.0, corners, upwards, 1.0, crest);
+        append_solid(grid, 0, 0.0, 1.0, corners, upwards, 1.0, crest, resolution_.folds);
+    }
+
+    /// Appends the soil that lies between the stems of a tuft, whose common foot the clod surrounds.
+    void add_bed() {
+        const SolidGrid grid = bed_of(resolution_);
+        std::vector<glm::dvec3> corners;
+        Random random = this->random(0, -3);
+        for (int i = 0; i < grid.rows; ++i) {
+            const glm::dvec2& row = bed_rows[static_cast<std::size_t>(i)];
+            const bool is_inside = i > 0 && i + 1 < grid.rows;
+            for (int j = 0; j < grid.columns; ++j) {
+                // Its tip is above, so it is seen from there.
+                const double angle = -2.0 * pi * j / grid.columns;
+                const double stray = is_inside ? random.symmetric() : 0.0;
+                corners.push_back(clod_.between(row.x, row.y * (1.0 + bed_stray * stray), angle));
+            }
+            close_row(corners, grid);
+        }
+        append_solid(grid, 0, 0.0, 1.0, corners, upwards, 1.0, 0, resolution_.folds);
     }
 
     /// How a pebble lies: a unit direction on the ground, its length across that, in widths, and the
@@ -507,16 +587,14 @@ double clearance_of(const SacStyle& sac, const SubCurve& stem, double share) {
            2.0 * sac.thickness * smooth_step(0.0, 1.0, sac.height / (10.0 * sac.thickness));
 }
 
-}  // namespace
-
-MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& detail,
-                       bool keep_absent) {
-    const Resolution& resolution = by_columns(resolutions, detail);
+/// Returns the exact counts of what is appended for all layers.
+MeshCount count_of(const std::vector<GroundLayer>& layers, const Resolution& resolution,
+                   double share, bool bed, bool keep_absent) {
     MeshCount sum;
     for (const GroundLayer& layer : layers) {
-        const GroundStyle& style = layer.style;
-        const Built built = built_of(style, detail);
+        const Built built = built_of(layer.style, resolution, share);
         MeshCount one = resolution.clod.count().times(built.clods);
+        if (bed) one += bed_of(resolution).count().times(built.clods);
         one += resolution.lump.count().times(built.lumps);
         one += grid_of(form_of(style.litter.kind), resolution).count().times(built.pieces);
         one += resolution.strand.count().times(built.strands);
@@ -527,10 +605,30 @@ MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& det
     return sum;
 }
 
+}  // namespace
+
+MeshCount ground_count(const std::vector<GroundLayer>& layers, const Detail& detail,
+                       bool keep_absent) {
+    return count_of(layers, by_columns(resolutions, detail), detail.ground, false, keep_absent);
+}
+
+MeshCount ground_count(const std::vector<GroundLayer>& layers, const ColonyGroundDetail& detail) {
+    return count_of(layers, resolution_of(detail), detail.share, detail.fused, false);
+}
+
 void add_ground(Mesh& mesh, const std::vector<GroundLayer>& layers, const Foot& foot,
                 const Detail& detail, std::uint32_t seed, bool textured, bool keep_absent) {
     for (const GroundLayer& layer : layers)
-        GroundBuilder(mesh, layer, foot, detail, seed, textured, keep_absent).add();
+        GroundBuilder(mesh, layer, foot, by_columns(resolutions, detail), detail.ground, seed,
+                      textured, keep_absent)
+            .add();
+}
+
+void add_ground(Mesh& mesh, const std::vector<GroundLayer>& layers, const Foot& foot,
+                const ColonyGroundDetail& detail, std::uint32_t seed, bool textured) {
+    for (const GroundLayer& layer : layers)
+        GroundBuilder(mesh, layer, foot, resolution_of(detail), detail.share, seed, textured, false)
+            .add(detail.fused);
 }
 
 void add_ground(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {

@@ -33,6 +33,25 @@ using Foot = std::function<FootPoint(double depth, double angle)>;
 void add_ground(Mesh& mesh, const std::vector<GroundLayer>& layers, const Foot& foot,
                 const Detail& detail, std::uint32_t seed, bool textured, bool keep_absent);
 
+/// Resolutions of the ground of a colony, from the finest.
+inline constexpr int ground_rows = 6;
+
+/// How finely the ground of a colony is built.
+struct ColonyGroundDetail {
+    int row = 0;         ///< 0..ground_rows - 1
+    double share = 1.0;  ///< of the lumps, crumbs and litter of that row; 0: no ground at all
+    bool fused = false;  ///< one clod round all stems of a tuft, with soil between them
+};
+
+/// Returns the exact counts of what the function below appends.
+[[nodiscard]] MeshCount ground_count(const std::vector<GroundLayer>& layers,
+                                     const ColonyGroundDetail& detail);
+
+/// Appends the ground round one foot of a colony, or round that of a whole tuft. Species of weight
+/// 0 have no triangles.
+void add_ground(Mesh& mesh, const std::vector<GroundLayer>& layers, const Foot& foot,
+                const ColonyGroundDetail& detail, std::uint32_t seed, bool textured);
+
 /// Appends the ground of a swept individual, round its stem or the sac that surrounds it.
 void add_ground(Mesh& mesh, const Individual& individual, const OrnamentContext& context);
 

@@ -99,6 +99,7 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
         add_sway(colony, traits, models.stems, sway);
         colony.wind = wind_of(site, colony.members, traits, swaying_stem(typical), params);
     }
+    const std::vector<ColonyFoot> feet = feet_of(site, colony.members, models.feet);
     const auto skin = [&](int lod) {
         throw_if_cancelled(execution);
         ColonyParams at = params;
@@ -108,6 +109,9 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
         ColonySkin made =
             colony_skin(skeleton, {lod, painted_length, textured(spec), painted_from});
         if (!sway.empty()) made.mesh.sway = sway_of(made, site, colony.members, sway);
+        append(made.mesh,
+               colony_ground(typical.grounds, feet, traits, params.count, lod, textured(spec)));
+        if (!sway.empty()) made.mesh.sway.resize(made.mesh.positions.size());
         for (glm::vec3& place : made.mesh.positions) place *= static_cast<float>(params.size);
         return std::move(made.mesh);
     };
@@ -128,6 +132,7 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
         for (std::size_t i = 0; i < colony.farther.size(); ++i)
             colony.farther[i].wood = wood(params.lod + 1 + static_cast<int>(i), textured(spec));
     }
+    colony.has_stems = traits.capped || traits.roots == RootsShown::shown;
     colony.effective = effective_params(params, traits, growth, fit);
     colony.junction = fit.radius;
 

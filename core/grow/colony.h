@@ -21,7 +21,8 @@ struct ColonyLevel {
 
 /// The parts of a colony; each mesh is stored once.
 struct Colony {
-    Mesh skin;                          ///< roots and stems; empty where there are none
+    /// Roots, stems and the ground at their feet, or the ground alone; empty where there is nothing.
+    Mesh skin;
     Mesh wood;                          ///< what a tier stands on; empty for none
     std::vector<Mesh> models;           ///< caps or whole individuals; unused ones are empty
     std::vector<ColonyMember> members;  ///< with the poses of the file
@@ -29,6 +30,7 @@ struct Colony {
     ColonyParams effective;  ///< every parameter resolved; requesting it gives the same colony
     Collision collision;     ///< of all members, if the file has it
     Wind wind;
+    bool has_stems = true;  ///< or roots; otherwise the skin is ground
     double junction = 0.0;  ///< radius of the stem at size 1 where caps are cut off
 };
 

@@ -55,12 +55,19 @@ void add_solids(Estimate& e, const ColonySpec& spec) {
                     spec.params.file);
 }
 
+/// Returns the number of vertices and triangles of one individual, without ground.
+MeshCount count_of_one(const Individual& typical, int lod) {
+    Individual bare = typical;
+    bare.grounds.clear();
+    return body_count(bare, mesh_lod(typical, lod));
+}
+
 /// Returns about how many vertices and triangles the meshes of a level of detail have.
 MeshCount expected_count(const ColonySpec& spec, const Individual& typical,
                          const ColonyTraits& traits, const ColonyRoots& growth, int lod) {
     const ColonyParams& params = spec.params;
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
-    const MeshCount one = body_count(typical, mesh_lod(typical, lod));
+    const MeshCount one = count_of_one(typical, lod);
     double nodes = 0.0;
     if (traits.roots == RootsShown::shown)
         nodes += root_share(lod) * (1.2 * expected_root_nodes(growth) + 20.0);
@@ -71,8 +78,11 @@ MeshCount expected_count(const ColonySpec& spec, const Individual& typical,
     const double quads =
         nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, lod)));
     const MeshCount wood = expected_wood(spec, traits, fit_of(typical, traits), lod);
-    return {distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads) + wood.vertices,
-            distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads) + wood.triangles};
+    MeshCount sum = colony_ground_count(typical.grounds, traits, params.count, lod);
+    sum += wood;
+    sum.vertices += distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads);
+    sum.triangles += distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads);
+    return sum;
 }
 
 }  // namespace
@@ -95,7 +105,7 @@ ColonySpec at_level(ColonySpec spec, const Individual& typical, const Atlas& atl
     const double repeated = std::max(params.count - params.distinct, 0);
     params.lod = nearest_level(*params.triangles, [&](int lod) {
         const MeshCount stored = expected_count(spec, typical, traits, growth, lod);
-        const MeshCount one = body_count(typical, mesh_lod(typical, lod));
+        const MeshCount one = count_of_one(typical, lod);
         return static_cast<double>(stored.triangles) +
                repeated * static_cast<double>(one.triangles);
     });

@@ -45,7 +45,7 @@ MushroomSpec individual_spec(const ColonySpec& spec, int which) {
                          : params.age;
     own.params.lod = cap_lod(params.lod);
     own.params.substrate = Substrate::none;  // the colony has one for all
-    // The clod of a mushroom fits its own foot; stems of a colony lean and end in others or in roots.
+    // The ground lies level below all of them, however they lean: colony_ground().
     own.params.base = Base::clean;
     own.params.textures = params.textures;
     own.params.file = params.file;
@@ -147,6 +147,7 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
         const Mesh& own_mesh = colony.models.back();
         const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
         const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
+        if (!traits.capped) models.feet.push_back(foot_of(footprint_mesh));
         if (!traits.capped && !traits.lateral)
             fit = wide_enough(fit, footprint_mesh, models.models.empty());
         models.models.push_back(
@@ -164,6 +165,7 @@ Individual average_individual(const ColonySpec& spec, int which, const Atlas& at
                               const Caches& caches) {
     MushroomSpec own = individual_spec(spec, which);
     own.params.variation = 0.0;
+    own.params.base = spec.params.base;
     return resolve(own, atlas, caches.morphs);
 }
 

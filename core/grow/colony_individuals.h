@@ -6,6 +6,7 @@
 
 #include "core/atlas/atlas.h"
 #include "core/colony/cap.h"
+#include "core/colony/colony_ground.h"
 #include "core/colony/colony_spec.h"
 #include "core/colony/separation.h"
 #include "core/grow/collision.h"
@@ -27,7 +28,8 @@ namespace sporeprint {
 /// Returns true if the meshes have texture coordinates.
 [[nodiscard]] bool textured(const ColonySpec& spec);
 
-/// Returns an individual of the age of one of the models, without its variation.
+/// Returns an individual of the age of one of the models, without its variation, with the ground that
+/// it stands in.
 ///
 /// which  0 for the oldest, up to `distinct` - 1
 [[nodiscard]] Individual average_individual(const ColonySpec& spec, int which, const Atlas& atlas,
@@ -57,6 +59,7 @@ struct ModelSet {
     std::vector<ColonyModel> models;
     std::vector<SwayingStem> stems;  ///< of the whole individuals; empty unless the file has wind
     std::vector<std::vector<CollisionShape>> shapes;  ///< empty unless the file has collision
+    std::vector<ColonyFoot> feet;  ///< empty if the members stand on stems of the colony
 };
 
 /// Adds the meshes of the distinct individuals of a colony to all its levels.

@@ -51,9 +51,10 @@ void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin, const M
             {name + "_wood", {{&wood, wood_material, {}, {}}}, GlbRole::carrier});
     }
     if (!skin.positions.empty()) {
-        scene.nodes.push_back({.name = name + "_stems", .mesh = scene.meshes.size()});
+        const std::string own = name + (colony.has_stems ? "_stems" : "_ground");
+        scene.nodes.push_back({.name = own, .mesh = scene.meshes.size()});
         scene.meshes.push_back(
-            {name + "_stems", {{&skin, 0, {}, variant_materials(scene)}}, GlbRole::carrier});
+            {own, {{&skin, 0, {}, variant_materials(scene)}}, GlbRole::carrier});
     }
     std::vector<std::size_t> mesh_of(models.size(), 0);
     for (std::size_t i = 0; i < models.size(); ++i) {

@@ -11,8 +11,8 @@
 
 namespace sporeprint {
 
-/// Adds the meshes and nodes of one level of detail: one node for the wood, one for roots and stems,
-/// and one for each member, or an instanced one for each model.
+/// Adds the meshes and nodes of one level of detail: one node for the wood, one for roots, stems
+/// and ground, and one for each member, or an instanced one for each model.
 ///
 /// colony         with the members and the parameters; outlives the scene, as the meshes do
 /// wood_material  index of that of the wood

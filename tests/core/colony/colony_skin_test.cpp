@@ -68,18 +68,20 @@ TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
     }
 }
 
-TEST(ColonySkin, AStemShowsOneImageFromTheGroundToItsTop) {
-    // What an individual has in the ground, a stem of the colony has not.
+// The ground of the image is at the ground, so that soil clings to stems where they leave it.
+TEST(ColonySkin, AStemShowsOneImageAndItsGroundAtTheGround) {
+    constexpr double deep = 0.04, high = 0.16;
     for (const double buried : {0.0, 0.3})
         for (const double way : {1.0, -1.0}) {
-            const Mesh mesh =
-                colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true, buried}).mesh;
-            const double low = std::min(0.0, 0.2 * way);
+            Skeleton stem = pole(deep + high, 10, {0.0, way, 0.0});
+            for (auto& node : stem.nodes) node.place.y += way > 0.0 ? -deep : high;
+            const Mesh mesh = colony_skin(stem, {0, 0.085, true, buried}).mesh;
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 const double height =
-                    std::clamp((static_cast<double>(mesh.positions[i].y) - low) / 0.2, 0.0, 1.0);
-                EXPECT_NEAR(along_image(mesh.texture_coordinates[i]),
-                            buried + (1.0 - buried) * height, 0.03);
+                    std::clamp(static_cast<double>(mesh.positions[i].y), -deep, high);
+                const double expected = height < 0.0 ? buried * (1.0 + height / deep)
+                                                     : buried + (1.0 - buried) * height / high;
+                EXPECT_NEAR(along_image(mesh.texture_coordinates[i]), expected, 0.04);
             }
         }
 }
