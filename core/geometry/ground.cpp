@@ -596,7 +596,7 @@ MeshCount count_of(const std::vector<GroundLayer>& layers, const Resolution& res
         MeshCount one = resolution.clod.count().times(built.clods);
         if (bed) one += bed_of(resolution).count().times(built.clods);
         one += resolution.lump.count().times(built.lumps);
-        one += grid_of(form_of(style.litter.kind), resolution).count().times(built.pieces);
+        one += grid_of(form_of(layer.style.litter.kind), resolution).count().times(built.pieces);
         one += resolution.strand.count().times(built.strands);
         one += resolution.crumb.count().times(built.crumbs);
         if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;

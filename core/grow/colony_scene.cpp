@@ -53,8 +53,7 @@ void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin, const M
     if (!skin.positions.empty()) {
         const std::string own = name + (colony.has_stems ? "_stems" : "_ground");
         scene.nodes.push_back({.name = own, .mesh = scene.meshes.size()});
-        scene.meshes.push_back(
-            {own, {{&skin, 0, {}, variant_materials(scene)}}, GlbRole::carrier});
+        scene.meshes.push_back({own, {{&skin, 0, {}, variant_materials(scene)}}, GlbRole::carrier});
     }
     std::vector<std::size_t> mesh_of(models.size(), 0);
     for (std::size_t i = 0; i < models.size(); ++i) {
