@@ -33,12 +33,19 @@ Step step_at(double from, double to, double x) {
     return {t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / (to - from)};
 }
 
-/// Returns the relative depth of a crease at a value of noise: 1 where the noise is 0.
-Step crease_at(double noise) {
-    constexpr double square = crease * crease;
-    const double depth = square / (noise * noise + square);
-    return {depth, -2.0 * noise * depth * depth / square};
+/// Returns the relative depth of folds at a value of noise: 1 where the noise is 0 between swollen
+/// folds, 0 there where it is the line of a crest.
+Step crease_at(double noise, double crests) {
+    const double root = std::sqrt(noise * noise + crease_round * crease_round);
+    const double away = std::min((root - crease_round) / crease_half, 1.0);
+    const double swollen = (1.0 - away) * (1.0 - away);
+    const double slope = -2.0 * (1.0 - away) * noise / (root * crease_half);
+    return {swollen + crests * (1.0 - 2.0 * swollen), (1.0 - 2.0 * crests) * slope};
 }
+
+/// How deep relief too fine for a mesh seems in an outline, of which the heights alone are seen: the
+/// share of its mean depth, by trial with the silhouettes of neighbouring levels of detail.
+constexpr double seen_depth = 0.6;
 
 /// Returns a window that is 0 at the apex and at the margin, where the face meets others.
 Step window_at(double sigma) {
@@ -140,28 +147,29 @@ PitSample pit_sample(const ReliefStyle& style, double turn, double row, std::uin
 }
 
 Relief::Relief(const Individual& individual, const Detail& detail)
-    : styles_(individual.reliefs),
-      seeds_(relief_seeds(individual.painted_seed)),
-      meridian_(individual.outline.cap.length()) {
-    for (ReliefStyle& style : styles_) {
+    : seeds_(relief_seeds(individual.painted_seed)), meridian_(individual.outline.cap.length()) {
+    for (const ReliefStyle& style : individual.reliefs) {
         const CarriedRelief carried = carried_relief(style, detail.columns, detail.cap_rings);
-        style.folds *= carried.folds;
-        style.pits *= carried.pits;
-        style.tiers *= carried.tiers;
+        ReliefStyle finer = style;
+        finer.fold_count = static_cast<int>(finer_creases * style.fold_count);
+        Layer layer{style, carried.folds,
+                    carried_relief(finer, detail.columns, detail.cap_rings).folds, carried.pits};
+        layer.style.tiers *= carried.tiers;
+        if (layer.style.any()) layers_.push_back(layer);
     }
-    std::erase_if(styles_, [](const ReliefStyle& style) { return !style.any(); });
-    if (styles_.empty()) return;
+    if (layers_.empty()) return;
     const double keep = available_depth(individual.outline);
-    for (ReliefStyle& style : styles_) {
-        style.folds *= keep;
-        style.pits *= keep;
-        style.tiers *= keep;
+    for (Layer& layer : layers_) {
+        layer.style.folds *= keep;
+        layer.style.pits *= keep;
+        layer.style.tiers *= keep;
     }
 }
 
 double Relief::available_depth(const Outline& outline) const {
     double deepest = 0.0;
-    for (const ReliefStyle& style : styles_) deepest += style.folds + style.pits + style.tiers;
+    for (const Layer& layer : layers_)
+        deepest += layer.style.folds + layer.style.pits + layer.style.tiers;
     deepest *= meridian_;
     std::vector<glm::dvec2> others;
     for (const SubCurve* curve : {&outline.stem, &outline.hymenium})
@@ -193,32 +201,49 @@ double Relief::available_depth(const Outline& outline) const {
     return keep;
 }
 
-void Relief::add_folds(Depth& depth, const ReliefStyle& style, double sigma,
+void Relief::add_folds(Depth& depth, const Layer& layer, double sigma,
                        const SineCosine& turn) const {
+    const ReliefStyle& style = layer.style;
     // Noise is evaluated on a hemisphere, which is the shape of the young face.
     const auto tilt = sine_cosine(0.5 * pi * sigma);
-    for (int octave = 0; octave < 2; ++octave) {
-        const double f = 0.5 * style.fold_count * (octave == 0 ? 1.0 : 2.03);
-        const double weight = style.folds * (octave == 0 ? 1.0 - fine_creases : fine_creases);
+    std::array<Depth, 2> noises{};
+    for (std::size_t octave = 0; octave < 2; ++octave) {
+        const double f = 0.5 * style.fold_count * (octave == 0 ? 1.0 : finer_creases);
         const NoiseSample noise = noise_sample(
             {f * tilt.sine * turn.cosine, f * (1.0 - tilt.cosine), f * tilt.sine * turn.sine},
-            seeds_[static_cast<std::size_t>(octave)]);
-        const Step fold = crease_at(noise.value);
-        depth.value += weight * fold.value;
-        depth.by_sigma += weight * fold.slope * 0.5 * pi * f *
-                          (tilt.cosine * (noise.by[0] * turn.cosine + noise.by[2] * turn.sine) +
-                           tilt.sine * noise.by[1]);
-        depth.by_angle += weight * fold.slope * f * tilt.sine *
-                          (noise.by[2] * turn.cosine - noise.by[0] * turn.sine);
+            seeds_[octave]);
+        noises[octave] = {noise.value,
+                          0.5 * pi * f *
+                              (tilt.cosine * (noise.by[0] * turn.cosine + noise.by[2] * turn.sine) +
+                               tilt.sine * noise.by[1]),
+                          f * tilt.sine * (noise.by[2] * turn.cosine - noise.by[0] * turn.sine)};
+    }
+    noises[0].value += crease_winding * noises[1].value;
+    noises[0].by_sigma += crease_winding * noises[1].by_sigma;
+    noises[0].by_angle += crease_winding * noises[1].by_angle;
+    const double mean = seen_depth * (crease_mean + style.crests * (1.0 - 2.0 * crease_mean));
+    const std::array<double, 2> carried = {layer.folds, layer.fine_folds};
+    for (std::size_t octave = 0; octave < 2; ++octave) {
+        const double all = style.folds * (octave == 0 ? 1.0 - fine_creases : fine_creases);
+        const double weight = all * carried[octave];
+        const Step fold = crease_at(noises[octave].value, style.crests);
+        // What is too fine for the mesh lowers the face instead, so that outlines agree.
+        depth.value += weight * fold.value + (all - weight) * mean;
+        depth.by_sigma += weight * fold.slope * noises[octave].by_sigma;
+        depth.by_angle += weight * fold.slope * noises[octave].by_angle;
     }
 }
 
-void Relief::add_pits(Depth& depth, const ReliefStyle& style, double sigma, double angle) const {
+void Relief::add_pits(Depth& depth, const Layer& layer, double sigma, double angle) const {
+    const ReliefStyle& style = layer.style;
     const double rows = style.pit_rows;
     const PitSample pit = pit_sample(style, angle / (2.0 * pi), sigma * rows, seeds_[2]);
     const double rib = pit_rib * style.rib;
     const Step floor = step_at(rib, rib + pit_slope, pit.border);
-    const double weight = style.pits * pit.deep;
+    // About the share of a cell that lies within the middle of its slope.
+    const double floors = 1.0 - 2.0 * rib - pit_slope;
+    depth.value += style.pits * (1.0 - layer.pits) * seen_depth * mean_pit * floors * floors;
+    const double weight = layer.pits * style.pits * pit.deep;
     depth.value += weight * floor.value;
     depth.by_sigma += weight * floor.slope * pit.by_row * rows;
     depth.by_angle += weight * floor.slope * pit.by_turn / (2.0 * pi);
@@ -228,9 +253,10 @@ Relief::Height Relief::at(Part part, double share, double angle, const SineCosin
     if (flat(part)) return {};
     const double sigma = 1.0 - share;
     Depth depth;
-    for (const ReliefStyle& style : styles_) {
-        if (style.folds > 0.0) add_folds(depth, style, sigma, turn);
-        if (style.pits > 0.0) add_pits(depth, style, sigma, angle);
+    for (const Layer& layer : layers_) {
+        const ReliefStyle& style = layer.style;
+        if (style.folds > 0.0) add_folds(depth, layer, sigma, turn);
+        if (style.pits > 0.0) add_pits(depth, layer, sigma, angle);
         if (style.tiers > 0.0) {
             const auto wave = sine_cosine(2.0 * pi * style.tier_count * sigma);
             const double groove = 0.5 + 0.5 * wave.cosine;

@@ -15,8 +15,8 @@ namespace sporeprint {
 
 /// Height field over the outline revolved about its axis, metres, never positive: the sum of folds,
 /// pits and tiers, with its derivatives. What is too fine for a level of detail is reduced here and
-/// painted instead. All depths are scaled by one factor if any would reach another face, the axis
-/// or the centre of curvature.
+/// painted instead; folds and pits lower the face instead. All depths are scaled by one factor
+/// if any would reach another face, the axis or the centre of curvature.
 class Relief {
   public:
     Relief(const Individual& individual, const Detail& detail);
@@ -27,7 +27,7 @@ class Relief {
     };
 
     /// Returns true if the height is 0 on the whole part, as it is on all parts but the cap.
-    [[nodiscard]] bool flat(Part part) const { return part != Part::cap || styles_.empty(); }
+    [[nodiscard]] bool flat(Part part) const { return part != Part::cap || layers_.empty(); }
 
     /// Returns the height at a place.
     ///
@@ -42,15 +42,20 @@ class Relief {
     struct Depth {
         double value = 0.0, by_sigma = 0.0, by_angle = 0.0;
     };
-    void add_folds(Depth& depth, const ReliefStyle& style, double sigma,
-                   const SineCosine& turn) const;
-    void add_pits(Depth& depth, const ReliefStyle& style, double sigma, double angle) const;
+    /// The relief of one species, and the shares of its coarser and finer folds and of its pits that
+    /// are no finer than the mesh.
+    struct Layer {
+        ReliefStyle style;
+        double folds = 1.0, fine_folds = 1.0, pits = 1.0;
+    };
+    void add_folds(Depth& depth, const Layer& layer, double sigma, const SineCosine& turn) const;
+    void add_pits(Depth& depth, const Layer& layer, double sigma, double angle) const;
 
     /// Returns the factor on depths that keeps the face clear of everything else in every
     /// half-plane.
     [[nodiscard]] double available_depth(const Outline& outline) const;
 
-    std::vector<ReliefStyle> styles_;
+    std::vector<Layer> layers_;
     std::array<std::uint32_t, 3> seeds_;
     double meridian_;
 };

@@ -25,11 +25,21 @@ inline constexpr double pit_first = 0.25, pit_rise = 1.5;
 /// Lengths in cells of the pits' lattice. pit_jitter: greatest random offset of a pit's centre from
 /// the middle of its cell; pit_slope: width of the slope from the rib to the floor of a pit;
 /// pit_rib: half width of the flat top of a rib at ReliefStyle::rib = 1, 0 at rib = 0.
-inline constexpr double pit_jitter = 0.38, pit_slope = 0.36, pit_rib = 0.2;
+inline constexpr double pit_jitter = 0.38, pit_slope = 0.24, pit_rib = 0.2;
 
-/// Creases run along the zeros of a noise. crease: absolute value of the noise at which a crease
-/// has half its depth; fine_creases: share of the depth that belongs to the finer creases.
-inline constexpr double crease = 0.2, fine_creases = 0.3;
+/// Mean of the relative depths of pits, 0.7..1.
+inline constexpr double mean_pit = 0.85;
+
+/// Creases, or crests, run along the zeros of a noise. crease_half: absolute value of the noise at
+/// which the next fold is highest; crease_round: that at which the bottom of a crease becomes
+/// round; crease_mean: mean depth of a pattern of creases; fine_creases: share of the depth that
+/// belongs to the finer creases; crease_winding: share of the finer noise in the coarser one, which
+/// makes long creases wind.
+inline constexpr double crease_half = 0.6, crease_round = 0.05, crease_mean = 0.45;
+inline constexpr double fine_creases = 0.3, crease_winding = 0.3;
+
+/// How much finer the second noise of the creases is.
+inline constexpr double finer_creases = 2.03;
 
 /// The share of the relief that a mesh carries, 0..1; painting shows the rest.
 struct CarriedRelief {

@@ -199,7 +199,7 @@ std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
         relief.tiers *= source.weight;
         const auto match =
             std::find_if(reliefs.begin(), reliefs.end(), [&](const ReliefStyle& other) {
-                return other.fold_count == relief.fold_count &&
+                return other.fold_count == relief.fold_count && other.crests == relief.crests &&
                        other.pit_columns == relief.pit_columns &&
                        other.pit_rows == relief.pit_rows && other.rib == relief.rib &&
                        other.tier_count == relief.tier_count;

@@ -198,6 +198,7 @@ struct Azimuth {
 struct ReliefStyle {
     double folds = 0.0;
     int fold_count = 5;
+    double crests = 0.0;
     double pits = 0.0;
     int pit_columns = 14;
     int pit_rows = 8;
@@ -216,6 +217,11 @@ struct ReliefStyle {
                                    .min = 2,
                                    .max = 16,
                                    .doc = "About how many folds lie across the face."});
+        visit(&R::crests, Info{.name = "crests",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "0 swollen folds with narrow creases between them, 1 thin "
+                                      "crests with wide hollows between them."});
         visit(&R::pits, Info{.name = "pits",
                              .min = 0,
                              .max = 0.2,

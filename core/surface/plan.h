@@ -81,6 +81,7 @@ inline constexpr std::array<float, 7> srgb_curve = {
 struct ReliefPlan {
     std::array<std::uint32_t, 3> seed{};
     float folds = 0.0F, fold_slope = 0.0F;
+    float crests = 0.0F;
     float fold_size = 1.0F;  ///< cells of noise per radius of the young hemisphere
     float pits = 0.0F, pit_slope = 0.0F;
     float pit_columns = 3.0F, pit_rows = 2.0F;

@@ -43,10 +43,15 @@ HWY_INLINE Cells pit_cells(const ReliefPlan& plan, VF turn, VF y) {
     return all.found();
 }
 
-/// Returns the relative depth of a crease at a value of noise, 0..1.
-HWY_INLINE VF crease_of(VF noise) {
-    const VF square = set(static_cast<float>(crease * crease));
-    return square / (noise * noise + square);
+/// Returns the relative depth of folds at a value of noise, 0..1.
+HWY_INLINE VF crease_of(VF noise, VF crests) {
+    const VF one = set(1.0F);
+    const VF bottom = set(static_cast<float>(crease_round));
+    const VF root = hn::Sqrt(noise * noise + bottom * bottom);
+    const VF near =
+        one - hn::Min((root - bottom) * set(static_cast<float>(1.0 / crease_half)), one);
+    const VF swollen = near * near;
+    return swollen + crests * (one - swollen - swollen);
 }
 
 /// Adds the relief to a texel of the cap: height, colour of hollows and their shade.
@@ -66,17 +71,18 @@ HWY_INLINE void add_relief(const ReliefPlan& plan, const DiscPoint& p, Texel& te
             q * (set(0.5F) +
                  q * (set(-1.0F / 24.0F) + q * (set(1.0F / 720.0F) + q * set(-1.0F / 40320.0F))));
         VF depth = set(0.0F);
-        for (std::size_t octave = 0; octave < 2; ++octave) {
-            const VF f = set(plan.fold_size * (octave == 0 ? 1.0F : 2.03F));
-            const float weight =
-                static_cast<float>(octave == 0 ? 1.0 - fine_creases : fine_creases);
-            depth = depth + crease_of(noise3(f * sine * p.cosine, f * fall, f * sine * p.sine,
-                                             plan.seed[octave])) *
-                                set(weight);
-        }
+        const auto noise = [&](std::size_t octave, float size) {
+            const VF f = set(size);
+            return noise3(f * sine * p.cosine, f * fall, f * sine * p.sine, plan.seed[octave]);
+        };
+        const VF fine = noise(1, plan.fold_size * static_cast<float>(finer_creases));
+        const VF coarse = noise(0, plan.fold_size) + fine * set(static_cast<float>(crease_winding));
+        const VF crests = set(plan.crests);
+        depth = crease_of(coarse, crests) * set(static_cast<float>(1.0 - fine_creases)) +
+                crease_of(fine, crests) * set(static_cast<float>(fine_creases));
         height = height - depth * set(plan.fold_slope);
         hollow = hn::Max(hollow, depth);
-        dark = dark + depth * set(plan.folds * 12.0F);
+        dark = dark + depth * set(plan.folds * 30.0F);
     }
     if (plan.pits > 0.0F) {
         const Cells cells = pit_cells(plan, turn_of(p.cosine, p.sine), p.rho * set(plan.pit_rows));

@@ -24,14 +24,16 @@ namespace {
 
 /// Returns one kind of relief after another, and all at once.
 std::vector<ReliefStyle> kinds() {
-    ReliefStyle folds, pits, tiers;
+    ReliefStyle folds, crests, pits, tiers;
     folds.folds = 0.12;
+    crests.folds = 0.12;
+    crests.crests = 0.9;
     pits.pits = 0.08;
     tiers.tiers = 0.04;
     ReliefStyle all = folds;
     all.pits = pits.pits;
     all.tiers = tiers.tiers;
-    return {folds, pits, tiers, all};
+    return {folds, pits, tiers, all, crests};
 }
 
 Individual with(Individual individual, const ReliefStyle& relief) {
@@ -105,6 +107,28 @@ TEST(Relief, HeightsHaveTheReportedDerivativesAndFadeAtApexAndMargin) {
                 << "no seam";
             EXPECT_EQ(relief.at(Part::stem, share, 1.0, sine_cosine(1.0)).value, 0.0);
         }
+    }
+}
+
+TEST(Relief, WhatIsTooFineLowersTheFaceByMostOfItsMeanDepth) {
+    for (const std::size_t kind : {0U, 1U, 4U}) {
+        const Individual individual = with(cep(), kinds()[kind]);
+        const auto mean = [&](const Detail& detail) {
+            const Relief relief(individual, detail);
+            double sum = 0.0;
+            constexpr int count = 20000;
+            for (int i = 0; i < count; ++i) {
+                const double share = 0.15 + 0.65 * std::fmod(0.7548776662466927 * i, 1.0);
+                const double angle = 2.0 * pi * std::fmod(0.5698402909980532 * i, 1.0);
+                sum += relief.at(Part::cap, share, angle, sine_cosine(angle)).value;
+            }
+            return sum / count;
+        };
+        Detail coarse = details[0];
+        coarse.columns = coarse.cap_rings = 4;
+        Detail fine = details[0];
+        fine.columns = fine.cap_rings = 1000;
+        EXPECT_NEAR(mean(coarse) / mean(fine), 0.6, 0.15) << kind;
     }
 }
 
