@@ -254,7 +254,8 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detai
     if (count == 0) return;
     // Those that become shorter along the meridian lose the shortest ones, which nobody misses.
     const double stands_for = std::sqrt(std::sqrt(static_cast<double>(style.count) / count));
-    const double wider = 1.0 + (1.0 - style.shortening) * (std::min(stands_for, most_wide) - 1.0);
+    const double wider =
+        1.0 + (1.0 - 0.5 * style.shortening) * (std::min(stands_for, most_wide) - 1.0);
     for (int k = 0; k < count; ++k) {
         Random random(seed, purposes::spines, static_cast<std::uint32_t>(k));
         // Coarse levels build the first spines, so these are the longest: by chance or, where spines
