@@ -66,6 +66,10 @@ constexpr double inside_parent = 0.97, root_depth = 1.5, most_root_depth = 0.7;
 /// stay inside those of its parent, which may stand elsewhere.
 constexpr double first_ring = 0.8, first_depth = 1.2;
 
+/// Share of its own direction in that in which a tube begins; the rest is that of its parent, which it
+/// leaves in a bow.
+constexpr double fork_turn = 0.45;
+
 /// Gnarled segments, for `gnarl` 1: how far their middle is beside the straight way, in their radius
 /// where they are much longer than `bend_length` radii; how much farther their second half is on the
 /// one side and their first on the other; how far their thickness deviates between forks, and how
@@ -554,14 +558,13 @@ class TubeBuilder {
             const double sibling = std::max(widened_radius(parent_end.children[0]), 1e-12);
             const double equal = std::min(1.0, widened_radius(first) / sibling);
             begin.at = fork.at + (1.0 - equal) * node(first).beside;
-            // The direction is half-way between both paths, so that the tube never begins
-            // backwards.
+            // The direction is between both paths, so that the tube never begins backwards.
             const std::uint32_t next =
                 chain.forks.empty() ? chain.nodes.back() : chain.nodes[chain.forks.front()];
             const glm::dvec3 onwards =
                 chain.skips_forks() ? unit_or(node(next).place - begin.at, node(first).heading)
                                     : node(first).heading;
-            begin.along = unit_or(fork.along + onwards, fork.along);
+            begin.along = unit_or(fork.along + fork_turn * onwards, fork.along);
             begin.flat = square_of(parent_end.across);
             // Where one species of a mix ends, the continuation is as thin as its presence is
             // small.
@@ -592,7 +595,9 @@ class TubeBuilder {
         if (!chain.root) {
             const double deep = std::min(first_depth * begin.radius,
                                          0.8 * glm::distance(stations[0].at, stations[1].at));
-            stations[1].radius *= first_ring;
+            // A trunk may be thinner below.
+            const bool on_trunk = node(parent).parent == none;
+            stations[1].radius *= first_ring * (on_trunk ? std::min(graph_.foot, 1.0) : 1.0);
             stations[1].at -= deep * stations[0].along;
         }
         set_sides(stations, chain.root ? begin.side : node(parent).across);
