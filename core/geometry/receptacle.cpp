@@ -69,7 +69,7 @@ struct Resolution {
     int edge_step, section_samples;  ///< every n-th sample of an edge; bands from crest to crest
     int most_meshes;                 ///< of a net; the arms of fewer meshes are wider
 };
-constexpr std::array<Resolution, 7> resolutions = {{{64, 6, 16, 1, 6, 40},
+constexpr std::array<Resolution, 7> resolutions = {{{64, 6, 16, 1, 4, 40},
                                                     {48, 5, 12, 2, 3, 40},
                                                     {36, 4, 8, 6, 4, 40},
                                                     {28, 4, 8, 6, 3, 40},

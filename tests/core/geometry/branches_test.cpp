@@ -140,6 +140,27 @@ TEST(Branches, SpinesHangBelowTheirSegments) {
     EXPECT_GT(bounds(spiny).min.y, bounds(bare).min.y - 0.014f);
 }
 
+TEST(Branches, GnarlBendsSegmentsBetweenForksThatStayInPlace) {
+    const auto gnarled = [](double gnarl) {
+        MushroomSpec order = order_of("artomyces_pyxidatus", 0.6, 5, 0);
+        Model model = atlas().find("artomyces_pyxidatus")->species.stages[2].model;
+        std::get<Branched>(model.shape).segments.gnarl = gnarl;
+        order.mix.clear();
+        order.model = model;
+        return mesh_of(order);
+    };
+    const Mesh even = gnarled(0.0), crooked = gnarled(1.0);
+    expect_valid(crooked);
+    ASSERT_EQ(even.indices, crooked.indices);
+    const float height = bounds(even).max.y;
+    EXPECT_NEAR(bounds(crooked).max.y, height, 0.01f * height);
+    float most = 0.0f;
+    for (std::size_t i = 0; i < even.positions.size(); ++i)
+        most = std::max(most, glm::distance(even.positions[i], crooked.positions[i]));
+    EXPECT_GT(most, 0.01f * height);
+    EXPECT_LT(most, 0.06f * height);
+}
+
 TEST(Branches, ARuffleMovesEdgesAndNotTheMiddleOfSegments) {
     const Mesh plain = mesh_of(frilled(0.0, 0, 0)), ruffled = mesh_of(frilled(1.0, 0, 0));
     ASSERT_EQ(plain.positions.size(), ruffled.positions.size());
