@@ -32,7 +32,7 @@ constexpr std::array<TubeDetail, 13> detail_steps = {
      {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6},
      {3, 3, 3, 3, 1, 1, 2, 1.0, 0.6}}};
 /// Index of the first of the resolutions in which species of few segments are finer than in the one
-/// before, and their number: they serve sets and bushes that exceed the limit, and no level begins
+/// before, and their number: they serve sets and graphs that exceed the limit, and no level begins
 /// with them.
 constexpr std::size_t step_for_mixes = 2, steps_for_mixes = 4;
 /// Index of the finest and of the coarsest resolution by level of detail; if the coarsest exceeds
