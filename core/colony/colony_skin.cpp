@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "core/math/purposes.h"
+#include "core/math/random.h"
 #include "core/mesh/index_order.h"
 #include "core/mesh/tangents.h"
 #include "core/skeleton/skin.h"
@@ -24,8 +26,21 @@ constexpr double short_of_cap = 0.8;
 constexpr double least_segment = 2.7, least_on_root = 3.6;
 /// Number of nodes whose twice subdivided skin has about 60,000 triangles.
 constexpr std::size_t most_near_nodes = 210;
-/// A strip that rises by more than this many of its radii is a stem.
+/// A strip with a stem on it, or where nothing has a label, is a stem if it rises by more than this
+/// many of its radii.
 constexpr double risen = 3.2;
+
+/// Share of the band of soil that a root leaves at either edge.
+constexpr double soil_margin = 0.06;
+
+/// Radii of the cords on which stems stand, in those of the source: where a stem stands, elsewhere,
+/// and at their ends, which are in the ground by this depth; depth of the others, in their radii, and
+/// how far it varies.
+constexpr double root_at_stem = 0.85, root_elsewhere = 0.5, root_end = 0.3, end_depth = 0.7,
+                 root_depth = 0.1, root_heave = 0.25;
+
+/// Numbers of the random draws of roots, beyond those of the ground of a colony.
+constexpr std::uint32_t first_cord = 1U << 24U;
 
 /// Along a root between two forks or stems every n-th node remains, by level of detail.
 constexpr std::array<std::uint32_t, 4> root_strides = {1, 1, 2, 4};
@@ -118,11 +133,24 @@ class StemImage {
     }
 };
 
+/// Returns the texture coordinates of a soiled root, across which the image is mirrored.
+///
+/// along   place in the image, 0..1
+/// around  0..1
+TexturePoint soil_point(double along, double around) {
+    const auto& [low, high] = ground_bands.front();
+    const double across = std::abs(2.0 * around - 1.0);
+    return strip_point(swept_charts[static_cast<std::size_t>(Part::ground)], along,
+                       low + (high - low) * (soil_margin + (1.0 - 2.0 * soil_margin) * across));
+}
+
 void add_texture_coordinates(SkinnedSkeleton& made, const SkinOptions& options) {
     Mesh& mesh = made.mesh;
     const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
     mesh.texture_coordinates.resize(mesh.positions.size());
     std::vector<double> rings;
+    const bool has_labels = std::any_of(made.labels.begin(), made.labels.end(),
+                                        [](std::uint32_t label) { return label > 0; });
     for (std::size_t s = 0; s < made.strips.size(); ++s) {
         const Scaffold::Strip& strip = made.strips[s];
         const double length = std::max(strip.length, 1e-9);
@@ -143,7 +171,12 @@ void add_texture_coordinates(SkinnedSkeleton& made, const SkinOptions& options) 
         rings.erase(std::unique(rings.begin(), rings.end(),
                                 [&](double a, double b) { return b - a < 1e-6 * length; }),
                     rings.end());
-        const bool stem = high - low > risen * strip.radius;
+        std::size_t labelled = 0;
+        for (std::size_t i = first; i < last; ++i) labelled += made.labels[i] > 0 ? 1 : 0;
+        // The strip of a stem may begin with a stretch of root.
+        const bool has_risen = high - low > risen * strip.radius;
+        const bool stem = has_labels ? 2 * labelled > last - first || (labelled > 0 && has_risen)
+                                     : !options.soiled && has_risen;
         double sum_begins = 0.0, sum_ends = 0.0;
         for (std::size_t i = first; i < last; ++i) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
@@ -158,12 +191,33 @@ void add_texture_coordinates(SkinnedSkeleton& made, const SkinOptions& options) 
             const double share =
                 stem ? image.at(along)
                      : options.painted_from + (1.0 - options.painted_from) * root.at(along);
-            const TexturePoint at =
-                strip_point(chart, share, std::min(std::max(made.places[i].x, 0.0), 1.0));
+            const double around = std::min(std::max(made.places[i].x, 0.0), 1.0);
+            const TexturePoint at = !stem && options.soiled ? soil_point(root.at(along), around)
+                                                            : strip_point(chart, share, around);
             mesh.texture_coordinates[i] = {at.u, at.v};
         }
     }
     add_tangents(mesh);
+}
+
+/// Returns roots as cords in the soil rather than tubes on the ground.
+///
+/// bears  by node: carries a stem
+Skeleton sunken_roots(Skeleton ground, const std::vector<bool>& bears, std::uint32_t seed) {
+    std::vector<int> segments_at(ground.nodes.size(), 0);
+    for (const Skeleton::Segment& segment : ground.segments) {
+        ++segments_at[segment.from];
+        ++segments_at[segment.to];
+    }
+    for (std::size_t i = 0; i < ground.nodes.size(); ++i) {
+        Skeleton::Node& node = ground.nodes[i];
+        Random random(seed, purposes::ground, first_cord + static_cast<std::uint32_t>(i));
+        const bool is_end = segments_at[i] == 1 && !bears[i];
+        const double deep = is_end ? end_depth : root_depth + root_heave * random.symmetric();
+        node.place.y -= deep * node.radius;
+        node.radius *= is_end ? root_end : bears[i] ? root_at_stem : root_elsewhere;
+    }
+    return ground;
 }
 
 /// Returns roots with fewer nodes: their ends, forks, nodes that carry a stem, and every
@@ -225,7 +279,7 @@ Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>
         if (traits.capped)
             for (const ColonyMember& member : members)
                 bears[site.places[member.place].number] = true;
-        skeleton = thinned_roots(site.ground, bears,
+        skeleton = thinned_roots(sunken_roots(site.ground, bears, traits.seed), bears,
                                  root_strides[static_cast<std::size_t>(params.lod)], node_of);
     }
     if (!traits.capped) return skeleton;

@@ -18,7 +18,8 @@ inline constexpr double stem_below_ground = 1.6;
 /// site      the places of the members
 /// params    its level of detail determines how many nodes of the roots remain
 /// segments  greatest number of segments of a stem; short stems have fewer
-/// returns   metres at size 1. A stem has the radius of its place up to its last node, which lies
+/// returns   metres at size 1. Roots are thinner than the stems on them, lie more or less deep in the
+///           ground, and their ends are in it. A stem has the radius of its place up to its last node, which lies
 ///           inside the neck of its cap and is no thicker than the neck. The label of a segment is 0
 ///           on a root and 1 + the index of its member on a stem
 [[nodiscard]] Skeleton colony_skeleton(const ColonySite& site,
@@ -40,6 +41,7 @@ struct SkinOptions {
     double painted_length = 0.1;  ///< length of root that one image covers, metres at size 1
     bool textured = true;         ///< makes texture coordinates and tangents
     double painted_from = 0.0;    ///< share of the image, from its base, that shows what is buried
+    bool soiled = false;          ///< roots show the image of soil, not that of the stem
 };
 
 /// The surface of the skeleton of a colony.

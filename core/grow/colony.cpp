@@ -106,8 +106,8 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
         at.lod = lod;
         const Skeleton skeleton =
             colony_skeleton(site, colony.members, at, traits, segments_of(growth, lod));
-        ColonySkin made =
-            colony_skin(skeleton, {lod, painted_length, textured(spec), painted_from});
+        ColonySkin made = colony_skin(skeleton, {lod, painted_length, textured(spec), painted_from,
+                                                 !typical.grounds.empty()});
         if (!sway.empty()) made.mesh.sway = sway_of(made, site, colony.members, sway);
         append(made.mesh,
                colony_ground(typical.grounds, feet, traits, params.count, lod, textured(spec)));

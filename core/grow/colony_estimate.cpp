@@ -18,6 +18,8 @@ namespace {
 
 /// Approximate number of quads per node of the skeleton before subdivision.
 constexpr double quads_per_node = 9.0;
+/// The same for a node of thin roots, of which cleaning drops fewer.
+constexpr double quads_per_root_node = 10.5;
 
 std::uint64_t image_texels(const ColonySpec& spec) {
     const auto side = static_cast<std::uint64_t>(spec.params.texture_size) >> spec.params.lod;
@@ -76,7 +78,8 @@ MeshCount expected_count(const ColonySpec& spec, const Individual& typical,
     const auto least =
         static_cast<std::size_t>(traits.roots == RootsShown::shown ? 0.6 * nodes : nodes);
     const double quads =
-        nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, lod)));
+        nodes * (traits.roots == RootsShown::shown ? quads_per_root_node : quads_per_node) *
+        static_cast<double>(1 << (2 * skin_levels(least, lod)));
     const MeshCount wood = expected_wood(spec, traits, fit_of(typical, traits), lod);
     MeshCount sum = colony_ground_count(typical.grounds, traits, params.count, lod);
     sum += wood;

@@ -86,6 +86,32 @@ TEST(ColonySkin, AStemShowsOneImageAndItsGroundAtTheGround) {
         }
 }
 
+// Cords lie in the soil: they are thinner than the stems on them, end in the ground, and show soil
+// if there is some.
+TEST(ColonySkin, RootsAreCordsInTheSoil) {
+    ColonyParams params;
+    params.habit = Habit::rooted;
+    ColonyTraits traits;
+    traits.habit = Habit::rooted;
+    traits.roots = RootsShown::shown;
+    const StemFit fit{0.004, 0.08, 0.085, 0.03};
+    const ColonyRoots growth = colony_growth(params, traits, fit);
+    const ColonySite site = colony_site(params, traits, growth, {fit, fit});
+    const Skeleton skeleton = colony_skeleton(site, unmoved(site), params, traits, 5);
+    for (std::size_t i = 0; i < site.ground.nodes.size(); ++i) {
+        EXPECT_LT(skeleton.nodes[i].radius, site.ground.nodes[i].radius);
+        EXPECT_LT(skeleton.nodes[i].place.y, site.ground.nodes[i].radius);
+    }
+    for (const bool soiled : {false, true}) {
+        const ColonySkin made = colony_skin(skeleton, {1, fit.length, true, 0.0, soiled});
+        std::size_t in_soil = 0;
+        for (const glm::vec2& at : made.mesh.texture_coordinates)
+            in_soil += part_at(at.x, at.y) == Part::ground ? 1 : 0;
+        EXPECT_EQ(in_soil > made.mesh.positions.size() / 10, soiled);
+        EXPECT_LT(in_soil, made.mesh.positions.size() / 2 + made.mesh.positions.size() / 3);
+    }
+}
+
 // Along a root the image is repeated and mirrored at its own scale, and is constant nowhere.
 TEST(ColonySkin, ARootShowsImagesWithMirroredRepeat) {
     constexpr double painted = 0.085, length = 3.4 * painted;
