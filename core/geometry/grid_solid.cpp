@@ -20,7 +20,7 @@ TexturePoint point_of(const GridSolid& solid, double round, double up) {
 
 /// Returns true if the window is shown backwards at a column.
 bool is_back(const GridSolid& solid, int column) {
-    return (column * solid.folds / solid.columns) % 2 != 0;
+    return solid.folds > 1 && (column * solid.folds / solid.columns) % 2 != 0;
 }
 
 /// Returns where a column is in the window of a solid, 0..1.
