@@ -25,7 +25,7 @@ inline constexpr double pit_first = 0.25, pit_rise = 1.5;
 /// Lengths in cells of the pits' lattice. pit_jitter: greatest random offset of a pit's centre from
 /// the middle of its cell; pit_slope: width of the slope from the rib to the floor of a pit;
 /// pit_rib: half width of the flat top of a rib at ReliefStyle::rib = 1, 0 at rib = 0.
-inline constexpr double pit_jitter = 0.38, pit_slope = 0.24, pit_rib = 0.2;
+inline constexpr double pit_jitter = 0.38, pit_slope = 0.36, pit_rib = 0.2;
 
 /// Mean of the relative depths of pits, 0.7..1.
 inline constexpr double mean_pit = 0.85;
