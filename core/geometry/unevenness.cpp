@@ -98,6 +98,9 @@ Sides drawn_sides(Random& random) {
     return roundest;
 }
 
+/// How far a net may reach beyond the radius that is made uneven, in this radius.
+constexpr double most_beyond = 1.6;
+
 }  // namespace
 
 Unevenness::Unevenness(const Individual& individual) {
@@ -111,6 +114,9 @@ Unevenness::Unevenness(const Individual& individual) {
     Extent whole{individual.stem_base, individual.stem_base};
     for (const CurveName name : curve_names) whole.include(outline.of(name));
     radius_ = std::max(whole.radius, 1e-9);
+    // Beyond the radius powers of the distance grow fast, and would turn a wide net inside out.
+    for (const ReceptacleLayer& layer : individual.receptacles)
+        radius_ = std::max(radius_, 0.5 * layer.weight * layer.style.width / most_beyond);
     low_ = whole.low;
     rise_ = std::max(0.5 * (whole.high - whole.low), least_rise * radius_);
     base_ = individual.stem_base;

@@ -32,8 +32,8 @@ ReliefPlan relief_plan(const PaintParams& params) {
     // sharp features.
     const auto left = [](double carried) { return 1.0 - 0.75 * carried; };
     plan.folds = single(style.folds);
-    // Creases and crests are sharper than any triangle, so that painting shows them in full.
-    plan.fold_slope = single(style.folds);
+    // Creases and crests are sharper than any triangle, so that painting shows more of them.
+    plan.fold_slope = single(style.folds * (1.0 - 0.35 * params.carried.folds));
     plan.crests = single(style.crests);
     plan.fold_size = 0.5F * static_cast<float>(style.fold_count);
     plan.pits = single(style.pits);

@@ -37,6 +37,7 @@ MushroomSpec upright(MushroomSpec order) {
     order.params.deformation.bend_deg = 0.0;
     order.params.deformation.lean_deg = 0.0;
     order.params.deformation.imperfection = 0.0;
+    order.params.deformation.irregularity = 0.0;
     order.params.weathering.waves = 0.0;
     return order;
 }
