@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
@@ -43,14 +44,17 @@ constexpr double sideways_turn_deg = 40.0, sideways_elevation_deg = -33.0;
 /// Returns the bounds of a mesh; instances share it.
 class MeshBounds {
   public:
+    /// Meshes of instances follow each other, so that the last one found is nearly always wanted.
     const Bounds& of(const Mesh& mesh) {
-        const auto [at, is_new] = found_.try_emplace(&mesh);
-        if (is_new) at->second = bounds(mesh);
-        return at->second;
+        const auto at = std::find_if(found_.rbegin(), found_.rend(),
+                                     [&](const auto& one) { return one.first == &mesh; });
+        if (at != found_.rend()) return at->second;
+        found_.emplace_back(&mesh, bounds(mesh));
+        return found_.back().second;
     }
 
   private:
-    std::unordered_map<const Mesh*, Bounds> found_;
+    std::vector<std::pair<const Mesh*, Bounds>> found_;
 };
 
 /// One that is looked at: a draw, and its extent in the scene.
