@@ -98,8 +98,9 @@ Sides drawn_sides(Random& random) {
     return roundest;
 }
 
-/// How far a net may reach beyond the radius that is made uneven, in this radius.
-constexpr double most_beyond = 1.6;
+/// Distance from the axis, in the radius that is made uneven, from which on places move in proportion
+/// to it. Powers of greater distances would turn a wide net or a tall wart inside out.
+constexpr double farthest = 1.6;
 
 }  // namespace
 
@@ -114,9 +115,6 @@ Unevenness::Unevenness(const Individual& individual) {
     Extent whole{individual.stem_base, individual.stem_base};
     for (const CurveName name : curve_names) whole.include(outline.of(name));
     radius_ = std::max(whole.radius, 1e-9);
-    // Beyond the radius powers of the distance grow fast, and would turn a wide net inside out.
-    for (const ReceptacleLayer& layer : individual.receptacles)
-        radius_ = std::max(radius_, 0.5 * layer.weight * layer.style.width / most_beyond);
     low_ = whole.low;
     rise_ = std::max(0.5 * (whole.high - whole.low), least_rise * radius_);
     base_ = individual.stem_base;
@@ -181,7 +179,9 @@ void Unevenness::move(glm::dvec3& position, Directions&& each_direction) const {
     const Level level = level_at(position.y);
     const glm::dvec2 w(position.x, position.z);
     const double scale = 1.0 / radius_;
-    const glm::dvec2 q = (w * level.widening + level.shift) * scale;
+    glm::dvec2 q = (w * level.widening + level.shift) * scale;
+    const double beyond = std::max(glm::length(q) / farthest, 1.0);
+    q /= beyond;
     const glm::dvec2 conjugate(q.x, -q.y);
     // Powers of the conjugate, and of q.
     std::array<glm::dvec2, sides> far{conjugate};
@@ -210,7 +210,8 @@ void Unevenness::move(glm::dvec3& position, Directions&& each_direction) const {
                          radius_ * level.lift * product(slope, dq).x,
                      moved.y};
     });
-    position = {radius_ * to.x, position.y + radius_ * level.lift * rise, radius_ * to.y};
+    position = {radius_ * beyond * to.x, position.y + radius_ * level.lift * rise,
+                radius_ * beyond * to.y};
 }
 
 void Unevenness::apply(std::span<SurfacePoint> points) const {

@@ -117,6 +117,29 @@ TEST(Unevenness, MovesPositionsWithAndWithoutDirectionsAlike) {
     }
 }
 
+// A wide net or a tall wart reaches far beyond the outline that is made uneven.
+TEST(Unevenness, FarBeyondTheOutlineItTurnsNothingInsideOut) {
+    for (const char* id : {"amanita_muscaria", "psilocybe_semilanceata", "cyathus_striatus"}) {
+        const Individual individual = uneven(id, 1.0, 5);
+        const Unevenness map(individual);
+        const double radius = greatest_radius(individual.outline.cap);
+        Random random(17, 0);
+        for (int i = 0; i < 2000; ++i) {
+            const double r = radius * 40.0 * random.uniform();
+            const auto [s, c] = sine_cosine(random.uniform(0.0, 2.0 * pi));
+            const glm::dvec3 at(r * c, random.uniform(0.0, 40.0 * radius), r * s);
+            const double step = 1e-5 * radius;
+            std::array<glm::dvec3, 4> places = {at, at + glm::dvec3(step, 0.0, 0.0),
+                                                at + glm::dvec3(0.0, step, 0.0),
+                                                at + glm::dvec3(0.0, 0.0, step)};
+            map.apply(places);
+            const glm::dmat3 edges(places[1] - places[0], places[2] - places[0],
+                                   places[3] - places[0]);
+            EXPECT_GT(glm::determinant(edges), 0.0) << id << ' ' << r / radius;
+        }
+    }
+}
+
 TEST(Unevenness, NothingBelowTheOutlineIsLifted) {
     for (const std::string& id : swept_ids()) {
         const Individual individual = uneven(id, 1.0);
