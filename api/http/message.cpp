@@ -28,7 +28,7 @@ constexpr Term terms[] = {
     {&Cost::twigs, 1.6},
     {&Cost::members, 10.0},
     {&Cost::member_pairs, 0.65},
-    {&Cost::solids, 11000.0},  // of a bolete 8 ms, of a chanterelle 19 ms
+    {&Cost::solids, 9000.0},  // of a bolete 8 ms, of a chanterelle 19 ms
     {&Cost::atlases, 500.0},
     {&Cost::texels, 0.01},
     {&Cost::leaf_atlases, 200.0},  // 16 x 16 take 0.3 ms, 256 x 256 5 ms, 1024 x 1024 30 ms
@@ -36,10 +36,10 @@ constexpr Term terms[] = {
     {&Cost::leaf_row_vertices, 1.0 / 300.0},  // a needle takes a fifth of a birch leaf
     {&Cost::leaf_texels, 0.005},
     {&Cost::bark_atlases, 2000.0},
-    {&Cost::bark_texels, 0.05},  // 512 x 512 takes 36 ms: bark is noise of many octaves
+    {&Cost::bark_texels, 0.025},  // 512 x 512 takes 11 to 36 ms: bark is noise of many octaves
     {&Cost::webp_texels, 0.04},
     {&Cost::pixels, 0.008},  // a PNG of 2048 x 2048 takes 26 ms when flat, 60 ms when noisy
-    {&Cost::shadow_triangles, 0.04},
+    {&Cost::shadow_triangles, 0.03},
     {&Cost::samples, 0.03},
     {&Cost::impostor_triangles, 0.03},
     {&Cost::impostor_texels, 0.2},  // 392 x 392 seen take 40 ms, and 3,000,000 triangles 90 ms

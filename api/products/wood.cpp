@@ -50,7 +50,7 @@ ImageUrls wood_image_urls(const char* product, const WoodPaint& paint) {
 }
 
 Cost cost_of_paint(const WoodPaint& paint) {
-    return {.bark_atlases = 1, .bark_texels = 2 * texels_of(paint)};
+    return {.bark_atlases = 1, .bark_texels = 4 * texels_of(paint)};
 }
 
 Plan plan_wood_image(RouteCall& call, const char* product, ImageFormat format, Query query) {
