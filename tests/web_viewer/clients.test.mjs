@@ -167,7 +167,7 @@ test("an impostor looks like the mesh at a distance", async (t) => {
     // sides, so that its outline has more pixels for its area; the gaps of a crown are smaller than
     // a texel; branches of a coral hide the light from each other, seen from above most.
     for (const [product, lod, outline, colour] of [
-        ["mushrooms/amanita_muscaria", 2, 0.14, 20],
+        ["mushrooms/amanita_muscaria", 2, 0.15, 20],
         ["mushrooms/boletus_edulis", 2, 0.1, 6],
         ["mushrooms/cantharellus_cibarius", 2, 0.12, 8],
         ["mushrooms/ramaria_formosa", 1, 0.2, 24],
