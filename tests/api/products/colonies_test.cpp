@@ -135,7 +135,8 @@ TEST_F(ColoniesTest, AreChargedForTheImagesOfTheirWood) {
     };
     const Cost last = cost("&lod=3");
     EXPECT_EQ(last.texels, 3u * 128 * 128);
-    EXPECT_EQ(last.bark_texels, 2u * 3 * 64 * 64) << "half the side, and twice the work of bark";
+    EXPECT_EQ(last.bark_texels, 4u * 3 * 64 * 64)
+        << "half the side, and four times the work of bark";
     EXPECT_EQ(cost("&lod=3&substrate=none").bark_texels, 0u);
     EXPECT_EQ(cost("&lod=3&textures=linked").bark_texels, 0u);
     // Of a number of triangles the level is not known yet: the first one is charged.

@@ -58,7 +58,7 @@ TEST_F(WoodTest, ImagesOfABracketsWoodAreLinkedBesideItsOwn) {
 TEST_F(WoodTest, IsChargedOnceForItsImages) {
     const Cost last = cost("?lod=3");
     EXPECT_EQ(last.texels, 3U * 128 * 128);
-    EXPECT_EQ(last.bark_texels, 2U * 3 * 64 * 64);
+    EXPECT_EQ(last.bark_texels, 4U * 3 * 64 * 64);
     EXPECT_EQ(cost("?lod=3&substrate=none").bark_texels, 0U);
     EXPECT_EQ(cost("?lod=3&textures=linked").bark_texels, 0U);
     EXPECT_EQ(cost("?lod=3&variants=weather").bark_texels, last.bark_texels)
