@@ -42,11 +42,6 @@ int built(const LitterStyle& style, const Detail& detail) {
     return static_cast<int>(std::ceil(detail.ground * style.fallen));
 }
 
-SolidGrid grid_of(const LitterForm& form, const Detail& detail) {
-    const SolidGrid& grid = by_columns(resolutions, detail).grid;
-    return grid.rows > 0 ? grid : form.grid;
-}
-
 /// The upper face of a cap, at rest.
 class CapTop {
   public:
@@ -85,13 +80,54 @@ class CapTop {
     int columns_;
 };
 
+/// How a piece lies on a cap.
+struct Lie {
+    CapTop::Place middle;
+    glm::dvec2 heading{1.0, 0.0};  ///< unit direction on the cap
+    double size = 1.0;             ///< of the longest
+
+    [[nodiscard]] CapTop::Place at(double by) const {
+        return {middle.x + by * heading.x, middle.z + by * heading.y};
+    }
+};
+
+Lie drawn_lie(int number, Random& random) {
+    const double far = random.uniform();
+    const auto turn = sine_cosine(spread_angle(number, random));
+    const auto head = sine_cosine(random.uniform(0.0, 2.0 * pi));
+    const double size = random.uniform(0.6, 1.0);
+    const double out =
+        std::sqrt(innermost * innermost + (outermost * outermost - innermost * innermost) * far);
+    return {{out * turn.cosine, out * turn.sine}, {head.cosine, head.sine}, size};
+}
+
+/// Returns a piece that lies on a cap: a parabola through three points of it.
+///
+/// reach  half its length, in radii of the cap
+/// half   its middle
+Rod rod_on(const CapTop& cap, const Lie& lie, double reach, const CapTop::Point& half,
+           const LitterForm& form, double curled) {
+    const CapTop::Point from = cap.at(lie.at(-reach)), to = cap.at(lie.at(reach));
+    const glm::dvec3 bulge = half.place - 0.5 * (from.place + to.place),
+                     start = to.place - from.place + 4.0 * bulge;
+    Rod rod;
+    rod.length = glm::length(start);
+    rod.along = unit_or(start, square_to(half.normal, {lie.heading.x, 0.1, lie.heading.y}));
+    rod.bend = rod.length > 0.0 ? -4.0 * bulge / rod.length : glm::dvec3(0.0);
+    rod.side = unit_or(glm::cross(half.normal, rod.along), square_to(rod.along, {1.0, 0.1, 0.3}));
+    rod.take_form(form, curled);
+    rod.from = from.place + above * rod.thickness * half.normal;
+    return rod;
+}
+
 }  // namespace
 
 MeshCount fallen_litter_count(const std::vector<GroundLayer>& layers, const Detail& detail) {
     MeshCount sum;
     for (const GroundLayer& layer : layers) {
         const LitterStyle& style = layer.style.litter;
-        sum += grid_of(form_of(style.kind), detail).count().times(built(style, detail));
+        const SolidGrid grid = grid_of(form_of(style.kind), by_columns(resolutions, detail).grid);
+        sum += grid.count().times(built(style, detail));
     }
     return sum;
 }
@@ -100,52 +136,27 @@ void add_fallen_litter(Mesh& mesh, const Individual& individual, const OrnamentC
     const double amount = smooth_step(bare_until, littered_from, individual.effective.age);
     const CapTop cap(context);
     const AxisStation station = context.deformer.frozen_station(context.deformer.top());
-    const double length = context.outline.cap.length();
+    const double radius = context.outline.cap.length();
     for (const GroundLayer& layer : individual.grounds) {
         const LitterStyle& style = layer.style.litter;
         const LitterForm form = form_of(style.kind);
-        const SolidGrid grid = grid_of(form, context.detail);
+        const SolidGrid grid = grid_of(form, by_columns(resolutions, context.detail).grid);
         for (int number = 0; number < built(style, context.detail); ++number) {
             Random random(context.seed, purposes::fallen_litter,
                           layer.stream + static_cast<std::uint32_t>(number));
-            const double far = random.uniform(), around = 0.9 * random.symmetric();
-            const double heading = random.uniform(0.0, 2.0 * pi);
-            const double size = random.uniform(0.6, 1.0), window = random.uniform();
-            const double curled = random.uniform(-0.2, 0.5);
-            const auto turn = sine_cosine(golden_angle * number + around),
-                       head = sine_cosine(heading);
-            const double out = std::sqrt(innermost * innermost +
-                                         (outermost * outermost - innermost * innermost) * far);
-            const CapTop::Place middle{out * turn.cosine, out * turn.sine};
+            const Lie lie = drawn_lie(number, random);
             const double reach = std::min(
-                0.5 * size * layer.weight * amount * style.length / length, 0.5 * outermost);
-            const auto along = [&](double by) {
-                return cap.at({middle.x + by * head.cosine, middle.z + by * head.sine});
-            };
-            const CapTop::Point from = along(-reach), half = along(0.0), to = along(reach);
-            // The parabola through the three points.
-            const glm::dvec3 chord = to.place - from.place,
-                             bulge = half.place - 0.5 * (from.place + to.place),
-                             start = chord + 4.0 * bulge;
-            Rod rod;
-            rod.length = glm::length(start);
-            rod.along = unit_or(start, square_to(half.normal, {head.cosine, 0.1, head.sine}));
-            rod.bend = rod.length > 0.0 ? -4.0 * bulge / rod.length : glm::dvec3(0.0);
-            rod.side =
-                unit_or(glm::cross(half.normal, rod.along), square_to(rod.along, {1.0, 0.1, 0.3}));
-            rod.width = form.width * rod.length;
-            rod.thickness = form.thickness * rod.length;
-            rod.from = from.place + above * rod.thickness * half.normal;
-            rod.widths = form.widths;
-            rod.curl = form.curl * curled;
-            rod.ragged = form.ragged;
-            rod.whorl = form.whorl;
+                0.5 * lie.size * layer.weight * amount * style.length / radius, 0.5 * outermost);
+            const double window = random.uniform(), curled = random.uniform(-0.2, 0.5);
+            const CapTop::Point half = cap.at(lie.middle);
+            const Rod rod = rod_on(cap, lie, reach, half, form, curled);
             GridSolid solid{grid, Part::ground, {}, {}};
-            solid.window = StripPiece{1, window, 0.2, 1.0}.window();
+            solid.window = litter_paint(window).window();
             solid.corners = corners_of(rod, grid, random);
             context.deformer.apply(solid.corners, station);
             if (!context.curl.none()) {
-                const glm::dvec3 by = context.curl.moved(true, middle.from_apex(), middle.angle());
+                const glm::dvec3 by =
+                    context.curl.moved(true, lie.middle.from_apex(), lie.middle.angle());
                 for (glm::dvec3& corner : solid.corners) corner += by;
             }
             append(mesh, solid, unit_or(station.direction(half.place, half.normal), half.normal),

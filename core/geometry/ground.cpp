@@ -9,6 +9,7 @@
 #include "core/geometry/litter_piece.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
+#include "core/math/even_table.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 
@@ -72,6 +73,9 @@ constexpr double crumbs_per_lump = 3.0, least_crumb = 0.08, most_crumb = 0.36, f
 /// its texels are about as long as wide.
 constexpr double pebble_across = 0.35;
 
+/// The whole strip of soil, which a clod shows.
+constexpr StripPiece whole_soil{soil_band};
+
 /// How high litter lies on the lumps of the soil, in sizes of the largest.
 constexpr double on_lumps = 0.4;
 
@@ -84,8 +88,8 @@ constexpr double strand_width = 0.022, strand_wind = 0.16;
 /// strands, and of the litter, that are built.
 struct Resolution {
     int least_columns;
-    SolidGrid clod, lump, litter_grid, strand, crumb;
-    double lumps, litter;
+    SolidGrid clod, lump, litter, strand, crumb;
+    double lumps, pieces;
     double crumbs = crumbs_per_lump;  ///< for each lump of the style
     int folds = 1;                    ///< of the clod's image
 };
@@ -94,11 +98,6 @@ constexpr std::array<Resolution, 4> resolutions = {
      {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, {}, 0.15, 0.5},
      {12, {5, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
      {0, {4, 6, false}, {}, {}, {}, {}, 0.0, 0.0}}};
-
-/// Returns the grid of a piece of litter.
-SolidGrid grid_of(const LitterForm& form, const Resolution& resolution) {
-    return resolution.litter_grid.rows > 0 ? resolution.litter_grid : form.grid;
-}
 
 /// The same for the ground of a colony by ground_rows, round one foot of many and round all of a
 /// tuft. Nobody looks below a colony, so strands are the first to be left out.
@@ -151,7 +150,7 @@ struct Built {
 Built built_of(const GroundStyle& style, const Resolution& resolution, double share) {
     const bool has_clod = style.soil.lumps > 0 && share > 0.0;
     return {has_clod ? 1 : 0, built(style.soil.lumps, resolution.lumps, share),
-            built(style.litter.pieces, resolution.litter, share),
+            built(style.litter.pieces, resolution.pieces, share),
             resolution.strand.rows > 0 ? built(style.strands.count, resolution.lumps, share) : 0,
             resolution.crumb.rows > 0 ? built(style.soil.lumps, resolution.crumbs, share) : 0};
 }
@@ -159,26 +158,6 @@ Built built_of(const GroundStyle& style, const Resolution& resolution, double sh
 /// Returns the grid of the soil between the stems of a tuft.
 SolidGrid bed_of(const Resolution& resolution) {
     return {static_cast<int>(bed_rows.size()), resolution.clod.columns, false};
-}
-
-/// A place between two neighbouring entries of a table.
-struct Between {
-    std::size_t below;
-    double t;  ///< 0 at that entry, 1 at the next one
-};
-
-/// Returns where a place, 0..1, is in a table of evenly spaced entries.
-Between between_entries(double place, std::size_t entries) {
-    const double at = place * static_cast<double>(entries - 1);
-    const auto below = std::min(static_cast<std::size_t>(at), entries - 2);
-    return {below, at - static_cast<double>(below)};
-}
-
-/// Returns what a table of evenly spaced entries has at a place, 0..1.
-template <class Table>
-auto of_table(const Table& table, double place) {
-    const auto [below, t] = between_entries(place, table.size());
-    return (1.0 - t) * table[below] + t * table[below + 1];
 }
 
 double row_place(int row, const SolidGrid& grid) {
@@ -314,24 +293,17 @@ class GroundBuilder {
         return {seed_, purposes::ground + kind, stream_ + static_cast<std::uint32_t>(number)};
     }
 
-    /// Returns the angle at which a piece lies: evenly spread, however many are built.
-    static double angle_of(int number, Random& random) {
-        return golden_angle * number + 0.9 * random.symmetric();
-    }
-
-    /// Appends a solid of this grid, painted by a piece of a band of the ground's strip.
+    /// Appends a solid of this grid.
     ///
-    /// from    0..1, where the piece begins in what is left of the strip and of the band
-    /// share   of the strip's length
-    /// across  share of the band's width
+    /// paint  which piece of the ground's strip paints it
     /// crest, folds  as those of a GridSolid
-    void append_solid(const SolidGrid& grid, std::size_t band, double from, double share,
-                      std::vector<glm::dvec3>& corners, const glm::dvec3& normal,
-                      double across = 1.0, int crest = 0, int folds = 1) {
+    void append_solid(const SolidGrid& grid, const StripPiece& paint,
+                      std::vector<glm::dvec3>& corners, const glm::dvec3& normal, int crest = 0,
+                      int folds = 1) {
         GridSolid solid{grid, Part::ground, {}, {}};
         solid.crest = crest;
         solid.folds = folds;
-        solid.window = StripPiece{band, from, share, across}.window();
+        solid.window = paint.window();
         solid.corners = std::move(corners);
         append(mesh_, solid, normal, textured_, drawn_);
     }
@@ -360,7 +332,7 @@ class GroundBuilder {
         }
         // The strip is too narrow for the whole way down.
         const int crest = (edge_row(grid) + grid.rows - 1) / 2;
-        append_solid(grid, 0, 0.0, 1.0, corners, upwards, 1.0, crest, resolution_.folds);
+        append_solid(grid, whole_soil, corners, upwards, crest, resolution_.folds);
     }
 
     /// Appends the soil that lies between the stems of a tuft, whose common foot the clod surrounds.
@@ -379,7 +351,7 @@ class GroundBuilder {
             }
             close_row(corners, grid);
         }
-        append_solid(grid, 0, 0.0, 1.0, corners, upwards, 1.0, 0, resolution_.folds);
+        append_solid(grid, whole_soil, corners, upwards, 0, resolution_.folds);
     }
 
     /// How a pebble lies: a unit direction on the ground, its length across that, in widths, and the
@@ -388,10 +360,6 @@ class GroundBuilder {
         glm::dvec3 along;
         double length, spin;
     };
-    /// A piece of the strip of soil: where it begins and its share, as append_solid() takes them.
-    struct Window {
-        double from, share;
-    };
 
     /// Appends a lump or a crumb.
     ///
@@ -399,7 +367,7 @@ class GroundBuilder {
     ///         in the order of the grid
     template <class Corner>
     void add_pebble(const SolidGrid& grid, const FootPoint& at, const Lie& lie,
-                    const Window& window, const Corner& corner) {
+                    const StripPiece& paint, const Corner& corner) {
         const glm::dvec3 across = glm::cross(at.outwards, lie.along);
         std::vector<glm::dvec3> corners;
         for (int i = 0; i < grid.rows; ++i) {
@@ -413,13 +381,13 @@ class GroundBuilder {
             }
             close_row(corners, grid);
         }
-        append_solid(grid, 0, window.from, window.share, corners, at.outwards, pebble_across);
+        append_solid(grid, paint, corners, at.outwards);
     }
 
     void add_lump(int number) {
         Random random = this->random(0, number);
         const double place = static_cast<double>(number) / std::max(style_.soil.lumps, 1);
-        const double angle = angle_of(number, random);
+        const double angle = spread_angle(number, random);
         const double above = random.uniform(), far = random.uniform(), size = random.uniform();
         const double flat = random.uniform(least_flatness, most_flatness);
         const double length = random.uniform(1.0, longest_lump),
@@ -447,14 +415,15 @@ class GroundBuilder {
             return glm::dvec2(flat * radius * (profile.x + (is_tip ? 0.0 : high)),
                               radius * profile.y * (1.0 + wide));
         };
-        add_pebble(grid, at, {along, length, spin}, {window, 0.3}, corner);
+        add_pebble(grid, at, {along, length, spin}, {soil_band, window, 0.3, pebble_across},
+                   corner);
     }
 
     /// Appends a grain of soil on the clod or on the ground beside it, so that the soil does not end
     /// in a line.
     void add_crumb(int number) {
         Random random(seed_, purposes::ground_crumbs, stream_ + static_cast<std::uint32_t>(number));
-        const double angle = angle_of(number, random);
+        const double angle = spread_angle(number, random);
         const double lot = random.uniform(), far = random.uniform(), size = random.uniform();
         const double spin = random.uniform(0.0, 2.0 * pi), window = random.uniform();
         const double radius =
@@ -473,21 +442,20 @@ class GroundBuilder {
                               radius * profile.y * (1.0 + crumb_stray * random.symmetric()));
         };
         add_pebble(resolution_.crumb, at, {square_to(at.outwards, {1.0, 0.05, 0.1}), 1.0, spin},
-                   {window, 0.1}, corner);
+                   {soil_band, window, 0.1, pebble_across}, corner);
     }
 
     /// random  strays its rim
-    void add_rod(const Rod& rod, const SolidGrid& grid, std::size_t band, double window,
-                 double share, Random& random) {
+    void add_rod(const Rod& rod, const SolidGrid& grid, const StripPiece& paint, Random& random) {
         std::vector<glm::dvec3> corners = corners_of(rod, grid, random);
-        append_solid(grid, band, window, share, corners, rod.up());
+        append_solid(grid, paint, corners, rod.up());
     }
 
     void add_piece(int number) {
         Random random = this->random(1, number);
         const LitterForm form = form_of(style_.litter.kind);
         const double place = static_cast<double>(number) / std::max(style_.litter.pieces, 1);
-        const double angle = angle_of(number, random);
+        const double angle = spread_angle(number, random);
         const double lot = random.uniform(), far = random.uniform(), turned = random.uniform();
         const double stand = radians(random.uniform(form.least_stand, form.most_stand));
         const double roll = 0.5 * random.symmetric(), bent = random.uniform(0.3, 1.0);
@@ -495,12 +463,7 @@ class GroundBuilder {
         const double curled = random.symmetric();
         Rod rod;
         rod.length = weight_ * style_.litter.length * size * (1.0 - 0.5 * place);
-        rod.width = form.width * rod.length;
-        rod.thickness = form.thickness * rod.length;
-        rod.widths = form.widths;
-        rod.curl = form.curl * curled;
-        rod.ragged = form.ragged;
-        rod.whorl = form.whorl;
+        rod.take_form(form, curled);
         const double lying = 1.0 - smooth_step(0.0, 0.7, stand);
         // What lies reaches over the edge of the soil, what grows stands on it.
         const double gap = lying > 0.5 ? far * far : 0.1 + 0.9 * far;
@@ -536,12 +499,12 @@ class GroundBuilder {
         }
         rod.side = turned_square(unit_or(glm::cross(upwards, rod.along), tangent), rod.along,
                                  roll + (1.0 - lying) * turned * pi);
-        add_rod(rod, grid_of(form, resolution_), 1, window, 0.2, random);
+        add_rod(rod, grid_of(form, resolution_.litter), litter_paint(window), random);
     }
 
     void add_strand(int number) {
         Random random = this->random(2, number);
-        const double angle = angle_of(number, random);
+        const double angle = spread_angle(number, random);
         const double deep = random.uniform(), drop = random.uniform(-0.1, 0.7);
         const double wind_angle = random.uniform(0.0, 2.0 * pi), window = random.uniform();
         const FootPoint at = clod_.at(at_edge + (at_end - at_edge) * (0.2 + 0.8 * deep), angle);
@@ -554,7 +517,7 @@ class GroundBuilder {
         rod.bend = -0.3 * upwards + 0.8 * rod.wind;
         rod.width = rod.thickness = strand_width * rod.length;
         rod.widths = strand_widths;
-        add_rod(rod, resolution_.strand, 2, window, 0.25, random);
+        add_rod(rod, resolution_.strand, {strand_band, window, 0.25}, random);
     }
 };
 
@@ -596,7 +559,9 @@ MeshCount count_of(const std::vector<GroundLayer>& layers, const Resolution& res
         MeshCount one = resolution.clod.count().times(built.clods);
         if (bed) one += bed_of(resolution).count().times(built.clods);
         one += resolution.lump.count().times(built.lumps);
-        one += grid_of(form_of(layer.style.litter.kind), resolution).count().times(built.pieces);
+        one += grid_of(form_of(layer.style.litter.kind), resolution.litter)
+                   .count()
+                   .times(built.pieces);
         one += resolution.strand.count().times(built.strands);
         one += resolution.crumb.count().times(built.crumbs);
         if (layer.weight <= 0.0 && !keep_absent) one.triangles = 0;

@@ -1,10 +1,11 @@
 #include "core/geometry/litter_piece.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
+#include "core/math/even_table.h"
 #include "core/surface/charts.h"
 
 namespace sporeprint {
@@ -14,17 +15,22 @@ namespace {
 /// How often windows begin anew along the strip, of which pieces show a part of the width.
 constexpr double window_turns = 7.3;
 
-/// Returns what a table of evenly spaced entries has at a place, 0..1.
-double of_table(std::span<const double> table, double place) {
-    const double at = place * static_cast<double>(table.size() - 1);
-    const auto below = std::min(static_cast<std::size_t>(at), table.size() - 2);
-    const double t = at - static_cast<double>(below);
-    return (1.0 - t) * table[below] + t * table[below + 1];
-}
-
 }  // namespace
 
+void Rod::take_form(const LitterForm& form, double curled) {
+    width = form.width * length;
+    thickness = form.thickness * length;
+    widths = form.widths;
+    curl = form.curl * curled;
+    ragged = form.ragged;
+    whorl = form.whorl;
+}
+
 glm::dvec3 Rod::up() const { return glm::cross(along, side); }
+
+double spread_angle(int number, Random& random) {
+    return golden_angle * number + 0.9 * random.symmetric();
+}
 
 std::vector<glm::dvec3> corners_of(const Rod& rod, const SolidGrid& grid, Random& random) {
     const glm::dvec3 up = rod.up();

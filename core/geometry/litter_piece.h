@@ -110,9 +110,24 @@ struct Rod {
     std::span<const double> widths = {};                ///< along it, in shares of the largest
     double curl = 0.0, ragged = 0.0, whorl = 0.0;       ///< as those of a LitterForm
 
+    /// Takes on the form of a kind of litter, at its own length.
+    ///
+    /// form    lives as long as the rod
+    /// curled  share of the form's curl; negative ones curl the other way
+    void take_form(const LitterForm& form, double curled);
+
     /// Returns the unit direction that its faces look to at its beginning; sides curl to it.
     [[nodiscard]] glm::dvec3 up() const;
 };
+
+/// Returns the grid of a piece of litter: that of a level of detail, or if it is empty, that of the
+/// form.
+[[nodiscard]] inline SolidGrid grid_of(const LitterForm& form, const SolidGrid& of_level) {
+    return of_level.rows > 0 ? of_level : form.grid;
+}
+
+/// Returns the angle at which a piece lies: evenly spread, however many are built.
+[[nodiscard]] double spread_angle(int number, Random& random);
 
 /// Returns the corners of a rod as those of a GridSolid.
 ///
@@ -120,15 +135,23 @@ struct Rod {
 [[nodiscard]] std::vector<glm::dvec3> corners_of(const Rod& rod, const SolidGrid& grid,
                                                  Random& random);
 
+/// Bands of the ground's strip, see ground_bands.
+inline constexpr std::size_t soil_band = 0, litter_band = 1, strand_band = 2;
+
 /// Which piece of the ground's strip paints a solid.
 struct StripPiece {
-    std::size_t band = 0;  ///< of ground_bands
-    double from = 0.0;     ///< 0..1, where it begins in what is left of the strip and of the band
-    double share = 1.0;    ///< of the strip's length
-    double across = 1.0;   ///< share of the band's width
+    std::size_t band = soil_band;
+    double from = 0.0;    ///< 0..1, where it begins in what is left of the strip and of the band
+    double share = 1.0;   ///< of the strip's length
+    double across = 1.0;  ///< share of the band's width
 
     /// Returns it as the window of a GridSolid.
     [[nodiscard]] std::array<double, 4> window() const;
 };
+
+/// Returns the piece of the strip that paints a piece of litter.
+///
+/// from  see StripPiece
+[[nodiscard]] constexpr StripPiece litter_paint(double from) { return {litter_band, from, 0.2}; }
 
 }  // namespace sporeprint
