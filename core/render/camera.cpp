@@ -16,6 +16,13 @@ constexpr double half_angle_deg = 12.0;
 /// Part of the picture on each side that stays empty.
 constexpr double margin = 0.05;
 
+/// Returns the tangents of half the angles of view of an image, width by height of which is given.
+glm::dvec2 tangents_of(double aspect) {
+    const auto [sine, cosine] = sine_cosine(radians(half_angle_deg));
+    const double shorter = sine / cosine;
+    return {shorter * std::max(aspect, 1.0), shorter * std::max(1.0 / aspect, 1.0)};
+}
+
 }  // namespace
 
 CameraAxes camera_axes(double azimuth, double elevation) {
@@ -32,10 +39,8 @@ glm::vec3 Camera::seen(const glm::vec3& point) const {
 }
 
 Camera camera_with(const CameraAxes& axes, double aspect) {
-    const auto [sine, cosine] = sine_cosine(radians(half_angle_deg));
-    const double shorter = sine / cosine;
-    return {axes, glm::vec3(0.0F), static_cast<float>(shorter * std::max(aspect, 1.0)),
-            static_cast<float>(shorter * std::max(1.0 / aspect, 1.0))};
+    const glm::vec2 tangents(tangents_of(aspect));
+    return {axes, glm::vec3(0.0F), tangents.x, tangents.y};
 }
 
 glm::dvec2 angles_of(const PictureParams& params, int frame) {
@@ -61,12 +66,9 @@ glm::dvec2 angles_of(const PictureParams& params, int frame) {
 
 std::vector<Camera> fitted_cameras(const DrawList& list, std::span<const CameraAxes> axes,
                                    double aspect, float lowest) {
-    const auto [sine, cosine] = sine_cosine(radians(half_angle_deg));
-    const double shorter = sine / cosine;
-    const double tangent_x = shorter * std::max(aspect, 1.0);
-    const double tangent_y = shorter * std::max(1.0 / aspect, 1.0);
-    const double inner_x = tangent_x * (1.0 - 2.0 * margin);
-    const double inner_y = tangent_y * (1.0 - 2.0 * margin);
+    const glm::dvec2 tangents = tangents_of(aspect);
+    const double inner_x = tangents.x * (1.0 - 2.0 * margin);
+    const double inner_y = tangents.y * (1.0 - 2.0 * margin);
     // A point (x, y, z) in the axes of a camera is within its angle of view to the right if
     // x - a <= (z - c) t, that is x - t z <= a - t c, where the camera is at (a, b, c). The largest
     // x - t z of all points, and the largest of the three other sides, decide where it is.
@@ -92,7 +94,7 @@ std::vector<Camera> fitted_cameras(const DrawList& list, std::span<const CameraA
     std::vector<Camera> cameras;
     for (const CameraAxes& own : axes)
         cameras.push_back({own, own.right * aside + own.up * above + own.forward * ahead,
-                           static_cast<float>(tangent_x), static_cast<float>(tangent_y)});
+                           static_cast<float>(tangents.x), static_cast<float>(tangents.y)});
     return cameras;
 }
 
