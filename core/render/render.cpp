@@ -75,13 +75,20 @@ std::vector<SnappedCorner> corners_of(const std::vector<glm::vec3>& seen, const 
 /// The triangles of a draw in an image of samples.
 struct ImageTriangles {
     std::vector<SnappedCorner> corners;
+    std::span<const std::uint32_t> indices;
     ClippedTriangles parts;  ///< of a camera that sees a part of the scene
 
     ImageTriangles() = default;
-    ImageTriangles(const std::vector<glm::vec3>& seen, std::span<const std::uint32_t> indices,
-                   const Camera& camera, int columns, int rows) {
-        if (camera.nearest > 0.0F) parts = clipped(seen, indices, camera);
-        corners = corners_of(camera.nearest > 0.0F ? parts.corners : seen, camera, columns, rows);
+    ImageTriangles(const std::vector<glm::vec3>& seen, std::span<const std::uint32_t> whole,
+                   const Camera& camera, int columns, int rows)
+        : indices(whole) {
+        const std::vector<glm::vec3>* places = &seen;
+        if (camera.nearest > 0.0F) {
+            parts = clipped(seen, whole, camera);
+            places = &parts.corners;
+            indices = parts.indices;
+        }
+        corners = corners_of(*places, camera, columns, rows);
     }
 };
 
@@ -101,15 +108,11 @@ SeenScene visible(const DrawList& list, const Camera& camera, int columns, int r
     parallel(tasks);
     tasks.clear();
     for (int part = 0; part < visible_bands; ++part)
-        tasks.emplace_back(
-            [&, from = rows * part / visible_bands, to = rows * (part + 1) / visible_bands] {
-                for (std::size_t d = 0; d < images.size(); ++d) {
-                    const ClippedTriangles& parts = images[d].parts;
-                    const bool is_whole = camera.nearest <= 0.0F;
-                    found.show(d, is_whole ? list.draws[d].mesh->indices : parts.indices,
-                               images[d].corners, from, to, parts.of);
-                }
-            });
+        tasks.emplace_back([&, from = rows * part / visible_bands,
+                            to = rows * (part + 1) / visible_bands] {
+            for (std::size_t d = 0; d < images.size(); ++d)
+                found.show(d, images[d].indices, images[d].corners, from, to, images[d].parts.of);
+        });
     parallel(tasks);
     return found;
 }
