@@ -187,8 +187,8 @@ HWY_INLINE bool uses_turn(const CapPlan& plan) {
 }
 
 /// Shares of the meridian from which a cap that passes into the stem takes on its colours, and from
-/// which its grain fades, to a part: a skin without grain would be seen as a band.
-constexpr float joined_from = 0.7F, joined_grain_from = 0.88F, joined_grain = 0.4F;
+/// which its grain fades.
+constexpr float joined_from = 0.7F, joined_grain_from = 0.88F;
 
 /// Returns a texel of the cap. fields: values of cap_fields() at this texel
 HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
@@ -268,13 +268,8 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     }
     if (plan.veins > 0.0F) add_cap_veins(plan, p, fields, texel);
     if (plan.joined > 0.0F) {
-        const VF grainy =
-            one - set(1.0F - joined_grain) *
-                      smooth(p.rho, joined_grain_from, 1.0F / (1.0F - joined_grain_from));
-        texel.shade = mix(one, texel.shade, grainy);
-        texel.height = texel.height * grainy;
+        fade_grain(texel, p.rho, joined_grain_from);
         texel.roughness = mix(set(plan.joined_roughness), texel.roughness, own);
-        texel.occlusion = mix(one, texel.occlusion, grainy);
     }
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)) * lightness);

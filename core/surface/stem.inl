@@ -231,9 +231,8 @@ HWY_INLINE void add_stem_ground(const StemPlan& plan, VF along, VF turn, const V
     texel.height = texel.height + whole * set(0.003F);
 }
 
-/// Share of a stem from which its grain fades, to a part, where it passes into the upper face, so that
-/// no line is seen between the grains of both; a skin without grain would be seen as a band.
-constexpr float stem_joined_from = 0.9F, stem_joined_grain = 0.4F;
+/// Share of a stem from which its grain fades where it passes into the upper face.
+constexpr float stem_joined_from = 0.9F;
 
 /// Returns a texel of the stem. along: 0 at its base, which may be in the ground, 1 at the top; turn:
 /// 0..1. Heights are in circumferences.
@@ -283,13 +282,8 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     if (plan.skin.shows) add_skin(plan.skin, grain, fields[stem_broad], one, texel);
     if (plan.soil > 0.0F || plan.mycelium > 0.0F) add_stem_ground(plan, along, turn, fields, texel);
     if (plan.joined > 0.0F) {
-        const VF grainy =
-            one - set(1.0F - stem_joined_grain) *
-                      smooth(along, stem_joined_from, 1.0F / (1.0F - stem_joined_from));
-        texel.shade = mix(one, texel.shade, grainy);
-        texel.height = texel.height * grainy;
-        texel.roughness = mix(set(plan.roughness), texel.roughness, grainy);
-        texel.occlusion = mix(one, texel.occlusion, grainy);
+        const VF grain_left = fade_grain(texel, along, stem_joined_from);
+        texel.roughness = mix(set(plan.roughness), texel.roughness, grain_left);
     }
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)));

@@ -42,6 +42,20 @@ struct Layers {
     VF shade, height, roughness, occlusion;
 };
 
+/// Grain that is left where two parts pass into each other; a skin without any would be seen as a band.
+constexpr float joined_grain = 0.4F;
+
+/// Fades the grain of a part to joined_grain, from a share of the way to the part that it passes into,
+/// so that no line is seen between the grains of both. Returns the grain that is left, 1 before it.
+HWY_INLINE VF fade_grain(Layers& texel, VF way, float from) {
+    const VF one = set(1.0F);
+    const VF left = one - set(1.0F - joined_grain) * smooth(way, from, 1.0F / (1.0F - from));
+    texel.shade = mix(one, texel.shade, left);
+    texel.height = texel.height * left;
+    texel.occlusion = mix(one, texel.occlusion, left);
+    return left;
+}
+
 /// Position of a texel on a disc.
 struct DiscPoint {
     VF x, y;          ///< on the disc, in disc radii
