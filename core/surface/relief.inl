@@ -70,7 +70,6 @@ HWY_INLINE void add_relief(const ReliefPlan& plan, const DiscPoint& p, Texel& te
         const VF fall =
             q * (set(0.5F) +
                  q * (set(-1.0F / 24.0F) + q * (set(1.0F / 720.0F) + q * set(-1.0F / 40320.0F))));
-        VF depth = set(0.0F);
         const auto noise = [&](std::size_t octave, float size) {
             const VF f = set(size);
             return noise3(f * sine * p.cosine, f * fall, f * sine * p.sine, plan.seed[octave]);
@@ -78,8 +77,8 @@ HWY_INLINE void add_relief(const ReliefPlan& plan, const DiscPoint& p, Texel& te
         const VF fine = noise(1, plan.fold_size * static_cast<float>(finer_creases));
         const VF coarse = noise(0, plan.fold_size) + fine * set(static_cast<float>(crease_winding));
         const VF crests = set(plan.crests);
-        depth = crease_of(coarse, crests) * set(static_cast<float>(1.0 - fine_creases)) +
-                crease_of(fine, crests) * set(static_cast<float>(fine_creases));
+        const VF depth = crease_of(coarse, crests) * set(static_cast<float>(1.0 - fine_creases)) +
+                         crease_of(fine, crests) * set(static_cast<float>(fine_creases));
         height = height - depth * set(plan.fold_slope);
         hollow = hn::Max(hollow, depth);
         dark = dark + depth * set(plan.folds * 30.0F);
