@@ -181,14 +181,24 @@ ColonyGroundDetail mound_detail(const ColonyGroundDetail& tuft) {
     return {row, tuft.share, false};
 }
 
-/// Returns the counts of the ground of a colony.
-MeshCount total_of(const std::vector<GroundLayer>& layers, const ColonyGroundDetail& detail,
-                   int count) {
-    if (!detail.fused) return ground_count(layers, detail).times(count);
-    MeshCount sum = ground_count(tuft_layers(layers, count), detail);
-    sum += ground_count(mound_layers(layers, 1.0), mound_detail(detail)).times(count);
-    return sum;
-}
+/// The layers that the ground of a colony is counted by: of the clod of one foot, or of the one clod
+/// and of each mound of a tuft.
+struct CountedLayers {
+    std::vector<GroundLayer> clod, mound;
+
+    CountedLayers(const std::vector<GroundLayer>& layers, bool fused, int count)
+        : clod(fused ? tuft_layers(layers, count) : layers) {
+        if (fused) mound = mound_layers(layers, 1.0);
+    }
+
+    /// Returns the counts of all of it.
+    [[nodiscard]] MeshCount total(const ColonyGroundDetail& detail, int count) const {
+        if (!detail.fused) return ground_count(clod, detail).times(count);
+        MeshCount sum = ground_count(clod, detail);
+        sum += ground_count(mound, mound_detail(detail)).times(count);
+        return sum;
+    }
+};
 
 }  // namespace
 
@@ -255,11 +265,12 @@ ColonyGroundDetail colony_ground_detail(const std::vector<GroundLayer>& layers,
     ColonyGroundDetail detail;
     detail.fused = traits.habit == Habit::tuft;
     const std::uint64_t most = most_triangles[static_cast<std::size_t>(lod)];
+    const CountedLayers counted(layers, detail.fused, count);
     if (stands_in_soil(traits))
         for (detail.row = lod; detail.row < ground_rows; ++detail.row)
             for (int share = sixteenths; share >= least_sixteenths; --share) {
                 detail.share = static_cast<double>(share) / sixteenths;
-                if (total_of(layers, detail, count).triangles <= most) return detail;
+                if (counted.total(detail, count).triangles <= most) return detail;
             }
     detail.row = ground_rows - 1;
     detail.share = 0.0;
@@ -268,7 +279,8 @@ ColonyGroundDetail colony_ground_detail(const std::vector<GroundLayer>& layers,
 
 MeshCount colony_ground_count(const std::vector<GroundLayer>& layers, const ColonyTraits& traits,
                               int count, int lod) {
-    return total_of(layers, colony_ground_detail(layers, traits, count, lod), count);
+    const ColonyGroundDetail detail = colony_ground_detail(layers, traits, count, lod);
+    return CountedLayers(layers, detail.fused, count).total(detail, count);
 }
 
 Mesh colony_ground(const std::vector<GroundLayer>& layers, const std::vector<ColonyFoot>& feet,

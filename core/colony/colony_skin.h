@@ -19,9 +19,9 @@ inline constexpr double stem_below_ground = 1.6;
 /// params    its level of detail determines how many nodes of the roots remain
 /// segments  greatest number of segments of a stem; short stems have fewer
 /// returns   metres at size 1. Roots are thinner than the stems on them, lie more or less deep in the
-///           ground, and their ends are in it. A stem has the radius of its place up to its last node, which lies
-///           inside the neck of its cap and is no thicker than the neck. The label of a segment is 0
-///           on a root and 1 + the index of its member on a stem
+///           ground, and their ends are in it. A stem has the radius of its place up to its last
+///           node, which lies inside the neck of its cap and is no thicker than the neck. The label
+///           of a segment is 0 on a root and 1 + the index of its member on a stem
 [[nodiscard]] Skeleton colony_skeleton(const ColonySite& site,
                                        const std::vector<ColonyMember>& members,
                                        const ColonyParams& params, const ColonyTraits& traits,
