@@ -43,15 +43,23 @@ Skeleton pole(double length, int nodes, const glm::dvec3& along) {
     return segments;
 }
 
-TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
+/// A colony on visible roots.
+struct RootedColony {
     ColonyParams params;
-    params.habit = Habit::rooted;
     ColonyTraits traits;
-    traits.habit = Habit::rooted;
-    traits.roots = RootsShown::shown;
-    const StemFit fit{0.004, 0.08, 0.085, 0.03};
-    const ColonySite site =
-        colony_site(params, traits, colony_growth(params, traits, fit), {fit, fit});
+    StemFit fit{0.004, 0.08, 0.085, 0.03};
+    ColonySite site;
+
+    RootedColony() {
+        params.habit = traits.habit = Habit::rooted;
+        traits.roots = RootsShown::shown;
+        site = colony_site(params, traits, colony_growth(params, traits, fit), {fit, fit});
+    }
+};
+
+TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
+    const RootedColony colony;
+    const auto& [params, traits, fit, site] = colony;
     const std::vector<ColonyMember> members = unmoved(site);
     ASSERT_GT(members.size(), 5U);
     for (int lod = 0; lod < 4; ++lod) {
@@ -89,14 +97,8 @@ TEST(ColonySkin, AStemShowsOneImageAndItsGroundAtTheGround) {
 // Cords lie in the soil: they are thinner than the stems on them, end in the ground, and show soil
 // if there is some.
 TEST(ColonySkin, RootsAreCordsInTheSoil) {
-    ColonyParams params;
-    params.habit = Habit::rooted;
-    ColonyTraits traits;
-    traits.habit = Habit::rooted;
-    traits.roots = RootsShown::shown;
-    const StemFit fit{0.004, 0.08, 0.085, 0.03};
-    const ColonyRoots growth = colony_growth(params, traits, fit);
-    const ColonySite site = colony_site(params, traits, growth, {fit, fit});
+    const RootedColony colony;
+    const auto& [params, traits, fit, site] = colony;
     const Skeleton skeleton = colony_skeleton(site, unmoved(site), params, traits, 5);
     for (std::size_t i = 0; i < site.ground.nodes.size(); ++i) {
         EXPECT_LT(skeleton.nodes[i].radius, site.ground.nodes[i].radius);

@@ -18,17 +18,21 @@ PictureParams viewed(View view, double turn_deg = -30.0) {
     return params;
 }
 
+/// Adds a mesh to another one.
+void add(Mesh& mesh, const Mesh& one) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), one.positions.begin(), one.positions.end());
+    mesh.normals.insert(mesh.normals.end(), one.normals.begin(), one.normals.end());
+    for (const std::uint32_t i : one.indices) mesh.indices.push_back(first + i);
+}
+
 /// Returns a cap on a thin stem that stands on the origin.
 Mesh mushroom(float height, float radius) {
     Mesh mesh = ball(radius, {0.0F, height, 0.0F});
     for (glm::vec3& at : mesh.positions) at.y = height + 0.3F * (at.y - height);
-    const Mesh stem = ball(0.5F * height, {0.0F, 0.5F * height, 0.0F});
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const glm::vec3& at : stem.positions) {
-        mesh.positions.emplace_back(0.1F * at.x, at.y, 0.1F * at.z);
-        mesh.normals.emplace_back(0.0F, 1.0F, 0.0F);
-    }
-    for (const std::uint32_t i : stem.indices) mesh.indices.push_back(first + i);
+    Mesh stem = ball(0.5F * height, {0.0F, 0.5F * height, 0.0F});
+    for (glm::vec3& at : stem.positions) at = {0.1F * at.x, at.y, 0.1F * at.z};
+    add(mesh, stem);
     return mesh;
 }
 
@@ -103,13 +107,8 @@ TEST(CloseUp, OfManyItLooksAtTheForemostAndNeverAtWhatCarriesThem) {
 TEST(CloseUp, TheUndersideIsTheNearestOneIfNoneIsAtItsPlace) {
     Mesh mesh;
     for (const glm::vec3 at : {glm::vec3(1.0F, 0.5F, 1.0F), glm::vec3(-1.0F, 0.5F, 1.0F),
-                               glm::vec3(1.0F, 0.5F, -1.0F), glm::vec3(-1.0F, 0.5F, -1.0F)}) {
-        const Mesh one = ball(0.05F, at);
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.insert(mesh.positions.end(), one.positions.begin(), one.positions.end());
-        mesh.normals.insert(mesh.normals.end(), one.normals.begin(), one.normals.end());
-        for (const std::uint32_t i : one.indices) mesh.indices.push_back(first + i);
-    }
+                               glm::vec3(1.0F, 0.5F, -1.0F), glm::vec3(-1.0F, 0.5F, -1.0F)})
+        add(mesh, ball(0.05F, at));
     const GlbScene scene = scene_of(mesh);
     const CloseUp found = close_up_of(draw_list(scene, in_turn), viewed(View::underside));
     EXPECT_NEAR(std::abs(found.target.x), 1.0F, 0.05F);
