@@ -25,8 +25,8 @@ constexpr double merge_distance = 0.0002;
 // Share of a cut's damage from which on its columns stand at their own places.
 constexpr double open_at = 0.12;
 
-// Numbers of cuts at a level of detail; `inside`: columns on each side of a bite's middle, beside
-// its edge; `long_splits`: how many splits, if they are long enough, have a column in the middle of
+// Numbers of cuts at a level of detail; `inside`: columns on each side of a bite's middle: one
+// beside its end, one at its cusp; `long_splits`: how many splits, if they are long enough, have a column in the middle of
 // each lip beside those at the tip and on the margin. A pair of species needs all of its triangles:
 // more columns would coarsen its other parts.
 struct LodLimits {
@@ -38,9 +38,8 @@ constexpr std::array<LodLimits, 4> limits_by_lod = {
 constexpr double long_split = 0.2;
 // How far the lips of a split are raised at most, in radii of the cap.
 constexpr double most_lift = 0.05;
-// Positions in shares of a bite's half width: its arc is steepest at its edges; its middle has even
-// columns.
-constexpr std::array<double, 2> inside_at = {0.95, 0.78};
+// Where a bite has columns beside its ends, in shares of its half width: its arc is steepest there.
+constexpr double beside_end = 0.95;
 
 // Scales a share along its meridian so that the end moves to `last`; shares up to `fixed` are
 // unchanged.
@@ -66,11 +65,11 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
     return begun(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
 }
 
-// Returns the angles from the middle of a bite at which it needs columns on either side.
-std::vector<double> columns_of_bite(const Notch& bite, int inside) {
+// Returns the angles from the middle of a bite at which it needs columns on one side.
+std::vector<double> columns_of_bite(const Notch& bite, std::size_t side, int inside) {
     std::vector<double> out{bite.half_width};
-    for (int k = 0; k < inside; ++k)
-        out.push_back(inside_at[static_cast<std::size_t>(k)] * bite.half_width);
+    if (inside > 0) out.push_back(beside_end * bite.half_width);
+    if (inside > 1) out.push_back((side == 0 ? -bite.cusps[0] : bite.cusps[1]) * bite.half_width);
     return out;
 }
 
@@ -120,16 +119,24 @@ MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
             on_chords + column.open * (turns_[column.column] - on_chords);
     }
     if (none()) return;
-    for (const double turn : turns_) depths_.push_back(cut_at(whole_turn * turn));
-    depths_.push_back(depths_.front());
-    const std::vector<double> own = depths_;
+    depths_ = depths_of(false);
+    lower_depths_ = depths_of(true);
+}
+
+std::vector<double> MarginCuts::depths_of(bool lower) const {
+    std::vector<double> own;
+    own.reserve(turns_.size() + 1);
+    for (const double turn : turns_) own.push_back(cut_at(whole_turn * turn, lower));
+    own.push_back(own.front());
+    std::vector<double> out = own;
     for (const InsertedColumn& column : inserted_) {
         double on_chords = 0.0;
         for (const Chord& chord : chords(column))
             on_chords += chord.weight *
                          (own[chord.left] + chord.share * (own[chord.right] - own[chord.left]));
-        depths_[column.column] = on_chords + column.open * (own[column.column] - on_chords);
+        out[column.column] = on_chords + column.open * (own[column.column] - on_chords);
     }
+    return out;
 }
 
 std::vector<MarginCuts::CutColumn> MarginCuts::columns_of(const std::vector<Notch>& notches,
@@ -147,7 +154,7 @@ std::vector<MarginCuts::CutColumn> MarginCuts::columns_of(const std::vector<Notc
         for (const std::size_t side : {0U, 1U}) {
             const double sign = side == 0 ? -1.0 : 1.0;
             const Lip& lip = notch.lips[side];
-            for (const double across : notch.bitten ? columns_of_bite(notch, limits.inside)
+            for (const double across : notch.bitten ? columns_of_bite(notch, side, limits.inside)
                                                     : columns_of_lip(lip, is_long))
                 add(notch.theta + sign * across);
         }
@@ -211,10 +218,11 @@ void MarginCuts::insert_columns(std::size_t left, double to, const std::vector<d
     }
 }
 
-double MarginCuts::cut_at(double angle) const {
+double MarginCuts::cut_at(double angle, bool lower) const {
     double deepest = 0.0;
     for (const Open& cut : open_)
-        deepest = std::max(deepest, cut.depth * notch_depth(cut.notch, cut.size, angle));
+        deepest = std::max(deepest, cut.depth * (lower ? 1.0 + cut.notch.undercut : 1.0) *
+                                        notch_depth(cut.notch, cut.size, angle));
     if (melted_ > 0.0) {
         const double ragged = 0.5 * sine(3.0 * angle + phase_) + 0.3 * sine(7.0 * angle - phase_) +
                               0.2 * sine(13.0 * angle + 2.0 * phase_);
@@ -223,15 +231,17 @@ double MarginCuts::cut_at(double angle) const {
     return deepest;
 }
 
-double MarginCuts::depth(double angle) const {
-    if (depths_.empty()) return 0.0;
+double MarginCuts::depth(double angle) const { return between_columns(depths_, angle); }
+
+double MarginCuts::between_columns(const std::vector<double>& depths, double angle) const {
+    if (depths.empty()) return 0.0;
     double turn = angle / whole_turn;
     turn -= std::floor(turn);
     const auto next = static_cast<std::size_t>(
         std::upper_bound(turns_.begin(), turns_.end(), turn) - turns_.begin());
     const double from = turns_[next - 1], to = next == turns_.size() ? 1.0 : turns_[next];
     const double t = (turn - from) / (to - from);
-    return depths_[next - 1] + t * (depths_[next] - depths_[next - 1]);
+    return depths[next - 1] + t * (depths[next] - depths[next - 1]);
 }
 
 double MarginCuts::lift(double angle) const {
@@ -247,7 +257,7 @@ double MarginCuts::cap_end(double angle) const {
 
 double MarginCuts::lower_end(double angle) const {
     if (none() || lower_length_ <= 0.0) return 1.0;
-    return std::max(1.0 - depth(angle) / lower_length_, least_lower);
+    return std::max(1.0 - between_columns(lower_depths_, angle) / lower_length_, least_lower);
 }
 
 double MarginCuts::cap_to(double sigma, double end) { return scaled_share(sigma, fixed_cap, end); }

@@ -13,7 +13,7 @@
 namespace sporeprint {
 
 /// Computes, for each angle round the axis (radians), where the upper and the lower face end. A cut
-/// removes the same length from both meridians; the remaining surface is compressed along its
+/// removes about the same length from both meridians; the remaining surface is compressed along its
 /// meridian, so that gills, warts and pores move with it. A zone next to the axis does not move.
 ///
 /// The mesh always has evenly spaced columns; where a cut needs more, columns are inserted between
@@ -58,7 +58,7 @@ class MarginCuts {
     [[nodiscard]] double cap_end(double angle) const;
     [[nodiscard]] double lower_end(double angle) const;
 
-    /// Returns the length removed at an angle, metres; linear between columns, as the margin of the
+    /// Returns the length removed from the cap at an angle, metres; linear between columns, as the margin of the
     /// mesh is.
     [[nodiscard]] double depth(double angle) const;
 
@@ -106,7 +106,10 @@ class MarginCuts {
         double depth;  // at full size, metres
         double size;   // present one, 0..1
     };
-    [[nodiscard]] double cut_at(double angle) const;
+    /// Returns the length removed from the cap or from the lower face.
+    [[nodiscard]] double cut_at(double angle, bool lower) const;
+    [[nodiscard]] std::vector<double> depths_of(bool lower) const;
+    [[nodiscard]] double between_columns(const std::vector<double>& depths, double angle) const;
     /// How many columns cuts have.
     struct ColumnLimits {
         int inside;       ///< on each side of a bite's middle, beside its edge
@@ -122,7 +125,8 @@ class MarginCuts {
 
     std::vector<Open> open_;
     std::vector<double> turns_, placed_turns_;
-    std::vector<double> depths_;  // per column, the first one repeated; empty when nothing is cut
+    // Per column, the first one repeated; empty when nothing is cut.
+    std::vector<double> depths_, lower_depths_;
     std::vector<InsertedColumn> inserted_;
     std::vector<Chord> chords_;
     std::vector<bool> may_cut_;

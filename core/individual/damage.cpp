@@ -202,6 +202,45 @@ std::vector<DamageSpot> damage_spots(DamageSpotKind kind, CurveName part, std::u
     return out;
 }
 
+namespace {
+
+/// Returns the depth of a scallop at a place of its bite, relative to the bite's.
+double scallop_depth(const Scallop& scallop, double place) {
+    const double x = (place - scallop.middle) / scallop.half_width;
+    return x <= -1.0 || x >= 1.0 ? 0.0 : scallop.depth * std::sqrt(1.0 - x * x);
+}
+
+/// Returns the place where the first scallop becomes shallower than the second, between their middles.
+double cusp_between(const Scallop& first, const Scallop& second) {
+    double from = first.middle, to = second.middle;
+    for (int step = 0; step < 40; ++step) {
+        const double place = 0.5 * (from + to);
+        (scallop_depth(first, place) > scallop_depth(second, place) ? from : to) = place;
+    }
+    return 0.5 * (from + to);
+}
+
+/// Draws the scallops of a bite: the deepest one about its middle, one on either side that reaches
+/// the bite's end.
+void draw_scallops(Notch& bite, Random& random) {
+    const double middle = random.uniform(-0.28, 0.28);
+    const double half = random.uniform(0.40, 0.60);
+    Scallop& centre = bite.scallops[1];
+    centre = {middle, half, 1.0};
+    for (const std::size_t side : {0U, 1U}) {
+        const double sign = side == 0 ? -1.0 : 1.0;
+        const double inner = sign * middle + half * random.uniform(0.45, 0.85);
+        bite.scallops[2 * side] = {sign * 0.5 * (1.0 + inner), 0.5 * (1.0 - inner),
+                                   random.uniform(0.45, 0.90)};
+        if (bite.scallops[2 * side].half_width < 0.12)
+            bite.scallops[2 * side] = {sign * 0.88, 0.12, 0.45};
+    }
+    bite.cusps = {cusp_between(bite.scallops[0], centre), cusp_between(centre, bite.scallops[2])};
+    bite.undercut = random.uniform(-0.30, 0.20);
+}
+
+}  // namespace
+
 std::vector<Notch> bites(std::uint32_t seed) {
     constexpr int count = 4;
     std::vector<Notch> out;
@@ -217,6 +256,7 @@ std::vector<Notch> bites(std::uint32_t seed) {
         notch.depth = std::min(depth * width, 0.42);
         notch.onset = 0.6 * i / count;
         notch.id = static_cast<std::uint32_t>(i);
+        draw_scallops(notch, random);
         out.push_back(notch);
     }
     return out;
@@ -260,7 +300,7 @@ std::vector<Notch> splits(std::uint32_t seed) {
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::splits, static_cast<std::uint32_t>(i));
         const double jitter = random.symmetric();
-        const double opening = random.uniform(0.08, 0.15);
+        const double opening = random.uniform(0.03, 0.10);
         const double draw = random.uniform();
         const double skew = random.uniform(-0.45, 0.45);
         Notch notch;
@@ -306,8 +346,12 @@ double torn(const Lip& lip, double across) {
 double notch_profile(const Notch& notch, double theta) {
     const double turn = turn_between(notch.theta, theta);
     if (!notch.bitten) return torn(lip_beside(notch, turn), std::abs(turn));
-    const double x = turn / notch.half_width;
-    return x <= -edge || x >= edge ? 0.0 : std::sqrt(1.0 - x * x);
+    const double place = turn / notch.half_width;
+    if (place <= -edge || place >= edge) return 0.0;
+    double deepest = 0.0;
+    for (const Scallop& scallop : notch.scallops)
+        deepest = std::max(deepest, scallop_depth(scallop, place));
+    return deepest;
 }
 
 double notch_depth(const Notch& notch, double size, double theta) {

@@ -79,6 +79,12 @@ struct Lip {
     double lift = 0.0;                ///< how far it is raised, relative to the others: 0..1
 };
 
+/// One of the overlapping half ellipses that a bite consists of: a slug rasps in strokes. Places are
+/// relative to the bite's half width, depths to its own.
+struct Scallop {
+    double middle = 0.0, half_width = 1.0, depth = 1.0;
+};
+
 /// A piece missing from the margin, through cap and lower face alike: a slug's bite or a split.
 struct Notch {
     double theta = 0.0;       ///< of the middle of a bite, of the tip of a split
@@ -88,6 +94,11 @@ struct Notch {
     bool bitten = true;  ///< a round bite; otherwise a pointed split
     std::uint32_t id = 0;
     std::array<Lip, 2> lips{};  ///< of a split: on the side of smaller and of greater angles
+    std::array<Scallop, 3> scallops{};  ///< of a bite, in the order of their angles
+    /// Where the outline of a bite has its cusps, relative to its half width.
+    std::array<double, 2> cusps{};
+    /// Depth in the lower face over that in the cap, minus 1: 0 of a split.
+    double undercut = 0.0;
 };
 
 /// Returns the bites of slugs and the splits of the margin. Splits are narrow tears, most of them
@@ -101,8 +112,8 @@ inline constexpr double most_notch_width = 0.45;
 /// splits end in a narrow tip. The paint kernels know it as the fourth root of a cube.
 inline constexpr double lip_power = 4.0 / 3.0;
 
-/// Returns the depth of a full-size notch at an angle relative to its greatest: half an ellipse for
-/// a bite, the tear between the lips of a split; 0 outside.
+/// Returns the depth of a full-size notch at an angle relative to its greatest: that of the deepest
+/// scallop of a bite, the tear between the lips of a split; 0 outside.
 [[nodiscard]] double notch_profile(const Notch& notch, double theta);
 
 /// Returns the same for a notch of a size from 0 to 1. A bite deepens; the tip of a split advances

@@ -312,15 +312,22 @@ class DamagePlanner {
                 const double arc = length_of_step(part == Part::cap ? params_.metrics.cap_arc
                                                                     : params_.metrics.hymenium_arc);
                 const ChartSpace chart(plan_, part);
-                const double depth = std::min(notch.depth * scale * radius / arc, 0.9);
+                const double under = part == Part::cap ? 1.0 : 1.0 + notch.undercut;
+                const double depth = std::min(notch.depth * under * scale * radius / arc, 0.9);
                 // Width of the gnawed or frayed border beyond the cut.
                 const double rim = std::min(kind == DamageKind::bite ? 0.028 : 0.012, depth) *
                                    (part == Part::cap ? 1.0 : 0.6);
                 // A cut shallower than a texel has the opacity of its share of the texel.
                 const double shown = std::min(1.0, depth * chart.unit() / chart.texel());
+                if (notch.bitten) {
+                    for (const Scallop& scallop : notch.scallops)
+                        add_margin_spot(part, kind, notch.theta + scallop.middle * notch.half_width,
+                                        scallop.half_width * notch.half_width,
+                                        scallop.depth * depth * chart.unit(), rim, notch.id, shown);
+                    continue;
+                }
                 add_margin_spot(part, kind, notch.theta, notch.half_width * open,
                                 depth * chart.unit(), rim, notch.id, shown);
-                if (notch.bitten) continue;
                 SpotPlan& painted = plan_.damage.damage_spots[index_of(part)].back();
                 painted.per_width = single(1.0 / (notch.lips[1].corners.back().across * open));
                 painted.x = single(1.0 / (notch.lips[0].corners.back().across * open));

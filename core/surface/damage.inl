@@ -156,7 +156,7 @@ HWY_INLINE void add_crack(const SpotPlan& spot, VF x, VF y, const DamageTarget& 
     // Pieces of one crack overlap, so its appearance is computed once, from the nearest piece.
     const VF ragged = at.ragged(x, y, spot.seed);
     const VF near =
-        hn::Max(set(crack_window) - far - ragged * set(0.30F), zero) * set(spot.strength);
+        hn::Max(set(crack_window) - far - ragged * set(0.52F), zero) * set(spot.strength);
     at.raise(damage_near_crack, near);
     at.raise(damage_crack_width, hn::IfThenElseZero(near > zero, set(spot.height)));
 }
@@ -174,10 +174,10 @@ HWY_INLINE void open_cracks(DamageTexel& texel) {
     // Edges of cracks dry first and lift.
     const VF lip = hn::Max(one - hn::Abs(far - set(1.5F)) * set(1.1F), zero);
     texel.plane[damage_raised] =
-        hn::Max(texel.plane[damage_raised], lip * texel.plane[damage_crack_width] * set(0.45F));
+        hn::Max(texel.plane[damage_raised], lip * texel.plane[damage_crack_width] * set(0.16F));
     const VF wall = hn::Max(one - hn::Abs(far - set(0.80F)) * set(2.3F), zero);
     texel.plane[damage_shade] =
-        hn::Max(texel.plane[damage_shade], hn::Max(wall * set(0.75F), open * set(0.22F)));
+        hn::Max(texel.plane[damage_shade], hn::Max(wall * set(0.35F), open * set(0.30F)));
 }
 
 /// Position of texels relative to an oval, in its half axes.
@@ -196,9 +196,14 @@ HWY_INLINE void add_pit(const SpotPlan& spot, VF x, VF y, const DamageTarget& at
     const OvalPlace oval = oval_place(spot, x, y);
     if (all_at_least(oval.square, set(oval_window(DamageKind::pit)))) return;
     const VF one = set(1.0F), zero = set(0.0F), shown = set(spot.strength);
-    const VF ragged = noise2(oval.a * set(2.7F), oval.b * set(2.7F), spot.seed);
-    const VF far = hn::Sqrt(oval.square) + ragged * set(0.20F);
-    const VF open = (one - smooth(far, 0.90F, 9.0F)) * shown;
+    // A patch is scraped in several strokes, so that its outline has lobes and bays.
+    const VF ragged = noise2(oval.a * set(1.9F), oval.b * set(1.9F), spot.seed);
+    const VF lobes = noise2(oval.a * set(5.3F), oval.b * set(5.3F), spot.seed + 3U);
+    const VF window = one - smooth(oval.square, 1.55F, 1.0F / 0.7F);
+    const VF far =
+        mix(set(1.5F),
+            hn::Sqrt(oval.square) + ragged * set(0.42F) + lobes * set(0.20F) + set(0.12F), window);
+    const VF open = (one - smooth(far, 0.86F, 4.5F)) * shown;
     at.raise(damage_open, open);
     // The pit is flat at the bottom and steep at the sides, with shallow marks of the radula, which
     // scrapes along its short axis.
@@ -207,12 +212,15 @@ HWY_INLINE void add_pit(const SpotPlan& spot, VF x, VF y, const DamageTarget& at
     const VF rasp = gnawed * set(0.11F) + crumbs * set(0.07F);
     const VF floor = one - smooth(far, 0.55F, 2.6F);
     at.raise(damage_sunk, hn::Max(floor + rasp * open, zero) * set(spot.height) * shown);
-    const VF wall = hn::Max(one - hn::Abs(far - set(0.86F)) * set(5.0F), zero);
-    at.raise(damage_shade, (wall * set(0.26F) + hn::Max(rasp, zero) * set(1.5F) * open) * shown);
-    // Flesh that has been open for some hours is discoloured, most at its rim.
-    const VF rim = hn::Max(one - hn::Abs(far - set(0.86F)) * set(4.2F), zero);
+    // The rim is steep on one side and runs out on the other.
+    const VF steep = unit(set(0.45F) + lobes * set(0.9F));
+    const VF wall = hn::Max(one - hn::Abs(far - set(0.82F)) * set(4.0F), zero) * steep;
+    at.raise(damage_shade, (wall * set(0.20F) + hn::Max(rasp, zero) * set(1.5F) * open) * shown);
+    // Flesh that has been open for some hours is discoloured in clouds, and here and there at its rim.
+    const VF rim = hn::Max(one - hn::Abs(far - set(0.82F)) * set(2.6F), zero) *
+                   unit(ragged * set(1.4F) + set(0.1F));
     at.raise(damage_stain,
-             (hn::Max(rim * set(0.85F), open * set(0.3F)) + ragged * set(0.2F) * open) * shown);
+             unit(hn::Max(rim * set(0.6F), open * (set(0.3F) + ragged * set(0.45F)))) * shown);
 }
 
 /// Two octaves of noise with cached lattice cells, evaluated texel after texel of a row.
@@ -342,7 +350,7 @@ HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
         at.raise(damage_sunk, open * set(0.35F * spot.height) * shown);
         const VF rim = hn::Max(
             one - hn::Abs(far + teeth - set(1.0F + 0.6F * spot.rim)) * set(2.2F / spot.rim), zero);
-        at.raise(damage_stain, rim * set(0.7F) * shown);
+        at.raise(damage_stain, rim * unit(set(0.25F) + bold * set(0.6F)) * shown);
         return;
     }
     // Same border as tongue_ragged() in core/individual/damage.h.
@@ -360,7 +368,7 @@ HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
     at.raise(damage_raised, hn::Sqrt(curl) * set(0.45F * spot.height) * shown);
     const VF before = hn::Max(one - hn::Abs(roll + set(0.72F)) * set(2.4F), zero);
     const VF behind = hn::Max(one - hn::Abs(roll - set(0.75F)) * set(3.0F), zero);
-    at.raise(damage_shade, hn::Max(before, behind * set(0.6F)) * shown);
+    at.raise(damage_shade, hn::Max(before * set(0.65F), behind * set(0.35F)) * shown);
 }
 
 /// Applies the collected damage to a texel.
@@ -386,11 +394,11 @@ HWY_INLINE void show_damage(const DamagePlan& plan, const DamageTexel& damage, V
         const VF fibre = noise2(x * set(61.0F), y * set(61.0F), plan.seed, noise.fine);
         const VF cloud = noise2(x * set(13.0F), y * set(13.0F), plan.seed + 1U, noise.coarse);
         // Open flesh dries, and takes on the colour of the skin in cloudy patches.
-        const VF dry = unit(set(0.70F) + cloud * set(0.45F));
+        const VF dry = unit(set(0.50F) + cloud * set(0.26F));
         Rgb flesh =
-            shaded(rgb(plan.flesh), one + fibre * set(0.14F) + cloud * set(0.10F) - set(0.04F));
-        flesh = mix(flesh, {flesh.r * set(0.62F), flesh.g * set(0.46F), flesh.b * set(0.30F)}, dry);
-        flesh = mix(flesh, texel.colour, set(0.25F));
+            shaded(rgb(plan.flesh), one + fibre * set(0.14F) + cloud * set(0.06F) - set(0.04F));
+        flesh = mix(flesh, {flesh.r * set(0.66F), flesh.g * set(0.50F), flesh.b * set(0.34F)}, dry);
+        flesh = mix(flesh, texel.colour, set(0.30F));
         if (stained) flesh = mix(flesh, rgb(plan.bruise), stain * set(0.75F));
         texel.colour = mix(texel.colour, flesh, open);
         texel.roughness = mix(texel.roughness, set(0.88F), open);
@@ -434,7 +442,7 @@ HWY_INLINE void show_ink(const DamagePlan& plan, float front, VF share, VF uneve
     const VF black = smooth(along, front - 0.95F * band, 1.35F / band) *
                      set(amount < 0.1F ? 10.0F * amount : 1.0F);
     texel.colour = mix(texel.colour, {set(0.090F), set(0.062F), set(0.052F)}, brown * set(0.62F));
-    texel.colour = mix(texel.colour, {set(0.0052F), set(0.0043F), set(0.0050F)}, black);
+    texel.colour = mix(texel.colour, {set(0.0190F), set(0.0160F), set(0.0165F)}, black);
     texel.roughness = mix(texel.roughness, set(0.22F), black * set(0.85F));
 }
 

@@ -197,6 +197,11 @@ TEST(Weathering, ABiteRemovesItsDepthFromCapAndLowerFace) {
         EXPECT_NEAR(cuts.depth(bite.theta), bite.depth * radius, 1e-9 + 0.2 * radius * bite.depth);
         EXPECT_LT(cuts.cap(1.0, bite.theta), 1.0);
         EXPECT_LT(cuts.lower(1.0, bite.theta), 1.0);
+        const double lower = 1.0 - cuts.lower_end(bite.theta), cap = 1.0 - cuts.cap_end(bite.theta);
+        EXPECT_NEAR(
+            lower * individual.outline.hymenium.length() / (cap * individual.outline.cap.length()),
+            1.0 + bite.undercut, 1e-6)
+            << "gills and flesh are not eaten alike";
         EXPECT_EQ(cuts.cap(0.1, bite.theta), 0.1) << "the middle stays";
         // Places keep their order along the meridian.
         double last = -1.0;

@@ -204,6 +204,30 @@ TEST(Damage, NotchesStayOutsideTheStem) {
             }
 }
 
+TEST(Damage, ABiteIsThreeScallopsThatMeetInCusps) {
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const Notch& bite : bites(seed)) {
+            const auto depth = [&](double place) {
+                return notch_profile(bite, bite.theta + place * bite.half_width);
+            };
+            EXPECT_NEAR(depth(bite.scallops[1].middle), 1.0, 1e-9) << "the middle one is deepest";
+            EXPECT_EQ(depth(-1.0), 0.0);
+            EXPECT_EQ(depth(1.0), 0.0);
+            for (const std::size_t side : {0U, 1U}) {
+                const Scallop& outer = bite.scallops[2 * side];
+                const double end =
+                    side == 0 ? outer.middle - outer.half_width : outer.middle + outer.half_width;
+                EXPECT_NEAR(end, side == 0 ? -1.0 : 1.0, 1e-9) << "it reaches the end of the bite";
+                const double cusp = bite.cusps[side];
+                EXPECT_GT(depth(cusp), 0.0) << "no skin is left between two scallops";
+                EXPECT_LE(depth(cusp), depth(outer.middle) + 1e-9);
+                EXPECT_LE(depth(cusp), 1.0);
+            }
+            EXPECT_LT(bite.cusps[0], bite.cusps[1]);
+            EXPECT_GT(1.0 + bite.undercut, 0.5);
+        }
+}
+
 TEST(Damage, CracksOfANetMeetInTJunctions) {
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         const std::vector<Crack> net = crack_net(seed);
