@@ -30,6 +30,18 @@ HWY_INLINE Rgb ramp_colour(const CapPlan& plan, VF along) {
 // Inverse size of cells, which grow from the pole outwards.
 HWY_INLINE VF one_over_stretch(VF rho) { return set(1.25F) - set(0.45F) * rho; }
 
+/// Returns how far a fibre of a cap strays to its side, in turns: fibres sway together.
+HWY_INLINE VF cap_sway(const VF* fields) {
+    return fields[cap_uneven] * set(0.010F) + fields[cap_middle] * set(0.003F);
+}
+
+/// Returns the factor on the strength of the fibres of a cap: they are plain in some places, and hardly
+/// seen in others.
+HWY_INLINE VF cap_fibrous(const VF* fields) {
+    return clamped(set(0.95F) + fields[cap_mottle] * set(0.7F) + fields[cap_middle] * set(0.6F),
+                   0.15F, 1.8F);
+}
+
 /// Computes the slowly varying fields of a cap, which are sampled at every other texel; the first
 /// three come from the coarse grid.
 HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) {
@@ -48,20 +60,24 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
     if ((plan.fields & round_fields) == 0) return;
     const VF turn = turn_of(p.cosine, p.sine);
     const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
+    const VF sway = cap_sway(fields);
     if ((plan.fields & (1U << cap_streak)) != 0) {
         const VF coarse =
-            periodic_noise2(turn * set(46.0F), p.rho * set(1.7F) + fields[cap_middle] * set(0.12F),
-                            46, plan.seed[5]);
-        const VF thin = periodic_noise2(turn * set(131.0F), p.rho * set(2.9F), 131, plan.seed[6]);
+            periodic_noise2((turn + sway) * set(46.0F),
+                            p.rho * set(2.6F) + fields[cap_middle] * set(0.12F), 46, plan.seed[5]);
+        const VF thin =
+            periodic_noise2((turn + sway) * set(131.0F), p.rho * set(4.6F), 131, plan.seed[6]);
         const VF streak =
             coarse + thin * set(0.7F) * shown(round_texels * set(1.0F / 131.0F), 5.0F);
-        fields[cap_streak] = smooth(streak, -0.05F, 1.9F) * smooth(p.rho, 0.02F, 6.0F);
+        fields[cap_streak] =
+            smooth(streak, -0.05F, 1.9F) * smooth(p.rho, 0.02F, 6.0F) * cap_fibrous(fields);
     }
     if ((plan.fields & (1U << cap_fibre)) != 0) {
         const float n = static_cast<float>(plan.fibril_count);
-        const VF a = periodic_noise2(turn * set(n) + fields[cap_uneven] * set(0.6F),
-                                     p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
-        fields[cap_fibre] = a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F);
+        const VF a = periodic_noise2((turn + sway) * set(n), p.rho * set(6.5F), plan.fibril_count,
+                                     plan.seed[7]);
+        fields[cap_fibre] =
+            a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F) * cap_fibrous(fields);
     }
     if ((plan.fields & (1U << cap_zone)) != 0) {
         // Zones differ in width, and each is wider on one side than on the other.
@@ -138,9 +154,10 @@ HWY_INLINE void add_cap_zones(const CapPlan& plan, const CapZone& zone, const VF
 HWY_INLINE void add_cap_fibrils(const CapPlan& plan, const DiscPoint& p, const VF* fields, VF turn,
                                 VF round_texels, Layers& texel) {
     const float n = 2.0F * static_cast<float>(plan.fibril_count);
-    const VF b = periodic_noise2(turn * set(n) + fields[cap_middle] * set(0.5F), p.rho * set(8.0F),
+    const VF b = periodic_noise2((turn + cap_sway(fields)) * set(n), p.rho * set(11.0F),
                                  2 * plan.fibril_count, plan.seed[8]);
-    const VF fibre = fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) * set(0.55F);
+    const VF fibre = fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) *
+                                             set(0.55F) * cap_fibrous(fields);
     texel.shade = texel.shade * (set(1.0F) + set(0.42F * plan.fibrils) * fibre);
     texel.height = texel.height + fibre * p.radius * set(0.44F * 6.2831853F * plan.fibrils / n);
     texel.occlusion = texel.occlusion + hn::Min(fibre, set(0.0F)) * set(0.3F * plan.fibrils);
@@ -200,7 +217,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     Grain grain;
     grain.begin();
     if (plan.skin.fibres)
-        grain = meridian_grain(plan.skin, p.rho, turn + middle * set(0.006F) + one);
+        grain = meridian_grain(plan.skin, p.rho, turn + cap_sway(fields) + one);
     else if (plan.skin.shows)
         grain = plane_grain(plan.skin, p.x, p.y);
     // The lattices lie in the plane of the disc, which is wider than the cap.

@@ -248,7 +248,7 @@ inline constexpr std::array<int, 3> stem_bump_cells = {26, 83, 190};
 inline constexpr std::array<double, 2> grain_distance = {0.0013, 0.0005};
 inline constexpr double most_grains = 420.0;
 inline constexpr std::array<int, 3> stem_fibre_cells = {17, 46, 109};
-inline constexpr std::array<float, 3> stem_fibre_slender = {0.16F, 0.10F, 0.08F};
+inline constexpr std::array<float, 3> stem_fibre_slender = {0.22F, 0.15F, 0.12F};
 inline constexpr std::array<float, 3> cap_bump_frequency = {21.0F, 52.0F, 118.0F};
 inline constexpr std::array<float, 2> hymenium_bump_frequency = {30.0F, 62.0F};
 /// Strands and hairs of felt round a lower face.

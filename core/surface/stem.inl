@@ -14,6 +14,18 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
+/// Returns how far a fibre of a stem strays to its side, in turns: fibres sway together.
+HWY_INLINE VF stem_sway(const VF* fields) {
+    return fields[stem_broad] * set(0.030F) + fields[stem_middle] * set(0.006F);
+}
+
+/// Returns the factor on the strength of the fibres of a stem: here they are drawn out and plain, there
+/// the skin is almost smooth.
+HWY_INLINE VF stem_fibrous(const VF* fields) {
+    return clamped(set(0.95F) + fields[stem_broad] * set(0.9F) + fields[stem_middle] * set(0.5F),
+                   0.15F, 1.8F);
+}
+
 /// Computes the fields of a stem that vary slowly along it: broad and medium clouds, the first
 /// bumps, fibres and their furrows.
 HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields) {
@@ -32,14 +44,16 @@ HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields)
         // Coarse wrinkles appear only with strong fibres.
         VF fibre = set(0.0F);
         VF furrow = set(0.0F);
+        const VF sway = stem_sway(fields);
+        const VF fibrous = stem_fibrous(fields);
         for (std::size_t octave = 0; octave < 3; ++octave) {
             if (plan.fibres[octave] <= 0.0F) continue;
             const int cells_round = stem_fibre_cells[octave];
             const float n = static_cast<float>(cells_round);
-            const VF v = periodic_noise2(turn * set(n) + broad * set(0.5F),
+            const VF v = periodic_noise2((turn + sway) * set(n),
                                          length * set(n * stem_fibre_slender[octave]), cells_round,
                                          plan.seed[5 + octave]) *
-                         set(plan.fibres[octave]);
+                         set(plan.fibres[octave]) * fibrous;
             fibre = fibre + v;
             furrow = furrow + v * set(0.20F / n);
         }
@@ -243,8 +257,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     const VF middle = fields[stem_middle];
     Grain grain;
     grain.begin();
-    if (plan.skin.shows)
-        grain = stem_grain(plan.skin, turn + fields[stem_broad] * set(0.004F), length);
+    if (plan.skin.shows) grain = stem_grain(plan.skin, turn + stem_sway(fields), length);
     VF fine = zero;
     Layers texel;
     texel.height = zero;
@@ -266,7 +279,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     texel.colour.r = texel.colour.r * set(plan.tint.r);
     texel.colour.g = texel.colour.g * set(plan.tint.g);
     texel.colour.b = texel.colour.b * set(plan.tint.b);
-    texel.shade = one + middle * set(0.05F) + fine * set(0.06F);
+    texel.shade = one + fields[stem_broad] * set(0.05F) + middle * set(0.06F) + fine * set(0.06F);
     texel.occlusion = one + hn::Min(fine, zero) * set(0.25F);
     texel.roughness = set(plan.roughness) + fine * set(0.04F) + middle * set(0.03F);
     if (plan.fibrils > 0.0F) {
@@ -279,7 +292,9 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     if (plan.net > 0.0F) add_stem_net(plan, along, turn, fields, texel);
     if (plan.gills > 0.0F) add_stem_gills(plan, along, turn, texel);
     if (plan.base_stain > 0.0F) add_stem_stain(plan, along, fields, fine, texel);
-    if (plan.skin.shows) add_skin(plan.skin, grain, fields[stem_broad], one, texel);
+    if (plan.skin.shows)
+        add_skin(plan.skin, grain, fields[stem_broad],
+                 mix(one, stem_fibrous(fields), set(plan.skin.fibres ? 0.6F : 0.3F)), texel);
     if (plan.soil > 0.0F || plan.mycelium > 0.0F) add_stem_ground(plan, along, turn, fields, texel);
     if (plan.joined > 0.0F) {
         const VF grain_left = fade_grain(texel, along, stem_joined_from);
