@@ -39,7 +39,7 @@ constexpr std::array<ClodRow, 9> clod_rows = {{{0.0, -0.5, 1.05, 0.0, 0.0},
 
 /// How far single corners of the clod stray, in reaches; above the ground at most by this share of
 /// their height, so that the ground shows nowhere through the soil.
-constexpr double clod_grain = 0.14, most_stray = 0.6;
+constexpr double clod_grain = 0.075, most_stray = 0.6;
 
 /// Place on the clod, 0..1 over its rows, of the stem, of the edge and of the end of what lumps
 /// cover; share of the lumps above the edge.
@@ -62,7 +62,7 @@ constexpr double lump_stray = 0.30, lump_rise = 0.16, least_flatness = 0.6, most
 
 /// Sizes of lumps fall from the first, which all levels build, to this share, by this power of their
 /// number.
-constexpr double least_lump = 0.25, lump_power = 1.8;
+constexpr double least_lump = 0.25, lump_power = 3.2;
 
 /// Crumbs for each lump; their size, in that of the largest lump; how far beyond the edge of the soil
 /// the farthest lie, in its reaches; share of them that lies beyond it; how far their corners stray.
@@ -94,7 +94,16 @@ struct Resolution {
     int folds = 1;                    ///< of the clod's image
 };
 constexpr std::array<Resolution, 4> resolutions = {
-    {{72, {21, 72, false}, {4, 5, false}, {}, {8, 3, false}, {3, 5, false}, 1.0, 1.0},
+    {{72,
+      {21, 72, false},
+      {4, 5, false},
+      {},
+      {8, 3, false},
+      {3, 5, false},
+      1.0,
+      1.0,
+      crumbs_per_lump,
+      3},
      {28, {6, 12, false}, {3, 4, false}, {3, 3, false}, {4, 3, false}, {}, 0.15, 0.5},
      {12, {5, 8, false}, {}, {3, 3, false}, {}, {}, 0.0, 0.15},
      {0, {4, 6, false}, {}, {}, {}, {}, 0.0, 0.0}}};
