@@ -72,9 +72,9 @@ struct LitterForm {
                     .grid = {9, 6, false}};
         case LitterKind::moss:
             // Whorls of leaves, one above the other.
-            return {.widths = {0.3, 0.55, 1.0, 0.45, 0.95, 0.4, 0.8, 0.35, 0.0},
-                    .width = 0.12,
-                    .thickness = 0.12,
+            return {.widths = {0.35, 0.7, 1.0, 0.72, 0.98, 0.66, 0.82, 0.46, 0.0},
+                    .width = 0.095,
+                    .thickness = 0.095,
                     .least_stand = 42.0,
                     .most_stand = 88.0,
                     .bend = 0.3,
@@ -82,7 +82,7 @@ struct LitterForm {
                     .sunk = 0.15,
                     .curl = 0.0,
                     .ragged = 0.25,
-                    .whorl = 0.6,
+                    .whorl = 0.5,
                     .grid = {9, 6, false}};
         case LitterKind::chips:
             return {.widths = {0.5, 0.85, 0.95, 1.0, 0.96, 1.0, 0.8, 0.55, 0.0},

@@ -27,12 +27,12 @@ namespace {
 constexpr double least_corner = 0.78, most_corner = 1.12, tip_deviation = 0.25, tip_lift = 1.1;
 
 /// Heights of a style, in radii, between which patches change from cushions to spines; how much
-/// wider than a cone the middle of a cushion is, and how much narrower, in that, that of a spine.
-constexpr double cushion_height = 0.9, spine_height = 1.5, bulge = 0.55, spine_hollow = 2.2;
+/// wider than a cone the middle of a cushion is, and how much narrower that of a spine.
+constexpr double cushion_height = 0.9, spine_height = 1.5, bulge = 1.15, spine_hollow = 0.66;
 
 /// Warts are crumbs of a veil that has burst, not cones: how much their corners stray, across in
 /// shares of their distance from the middle and upwards in heights, and how flat their tops are.
-constexpr double crumb_stray = 0.3, crumb_rise = 0.28, crumb_top = 0.5;
+constexpr double crumb_stray = 0.3, crumb_rise = 0.28, crumb_top = 0.65;
 
 /// Depth of a patch's base under the surface, in radii.
 constexpr double patch_depth = 0.25;
@@ -169,7 +169,7 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     for (int i = 0; i < solid.rows; ++i) {
         const double row = static_cast<double>(i) / (solid.rows - 1);
         const double up = row * (1.0 - skirt_power * skirt * (1.0 - row));
-        const double narrowing = (1.0 - up) * (1.0 + bulge * up * (1.0 - spine_hollow * pointed)) +
+        const double narrowing = (1.0 - up) * (1.0 + up * (bulge - (bulge + spine_hollow) * pointed)) +
                                  (i == 0 ? skirt_width * skirt : 0.0);
         const double risen = up * (1.0 + crumbled * crumb_top * (1.0 - up));
         const double crumb = i > 0 && i + 1 < solid.rows ? crumbled : 0.0;

@@ -255,7 +255,8 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     texel.shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
                   set(0.10F) * fine;
     texel.occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
-    texel.roughness = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
+    texel.roughness =
+        set(plan.roughness) + fine * set(0.05F) + mottle * set(0.07F) + middle * set(0.05F);
     if (plan.patches > 0.0F) {
         // The border breaks up into points, and the patch is thinner in places.
         const VF patch =
@@ -364,7 +365,8 @@ HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
     const VF window = one - smooth(a * a + b * b, patch_window * patch_window - 0.6F, 1.0F / 0.6F);
     if (patch.kind == 2) return add_footprint(patch, veil, a, b, window, texel);
     if (patch.kind == 0) {
-        const VF grain = noise2(a * set(4.1F), b * set(4.1F), patch.seed);
+        const VF grain = noise2(a * set(2.5F), b * set(2.5F), patch.seed) * set(0.85F) +
+                         noise2(a * set(7.3F), b * set(7.3F), patch.seed + 1U) * set(0.35F);
         VF far = set(0.0F);
         for (std::size_t side = 0; side < 6; ++side)
             far = hn::Max(far, a * set(patch.side_x[side]) + b * set(patch.side_y[side]));
