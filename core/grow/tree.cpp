@@ -168,7 +168,10 @@ LevelCount expected_count(const TreeParams& params, int lod, double all) {
                 far.leaves,
                 {far.leaf_vertices, far.leaf_triangles}};
     }
-    const TreeCount bark = count_of_bark(params.look.shape, lod);
+    TreeCount bark = count_of_bark(params.look.shape, lod);
+    const TreeCount foot = count_of_flare(params.look.shape, lod);
+    bark.vertices += foot.vertices;
+    bark.triangles += foot.triangles;
     const std::uint64_t triangles = leaf_triangles(lod, placed);
     return {{static_cast<std::uint64_t>(bark.vertices), static_cast<std::uint64_t>(bark.triangles)},
             foliage_count(lod, placed),
@@ -381,7 +384,7 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
             foliage = std::move(far.foliage);
         } else {
             bark = bark_of(tree, lod);
-            flare_roots(bark, tree, params.look.shape.root_flare, params.seed);
+            flare_roots(bark, tree, params.look.shape.root_flare, params.seed, lod);
             foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);
         }
         if (sway) bark.mesh.sway = sway_of(bark, *sway);

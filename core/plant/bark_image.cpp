@@ -19,6 +19,13 @@ namespace {
 // Largest depth of a furrow, in girths.
 constexpr double deepest = 0.02;
 
+// Features of the field that bends ridges, round a segment.
+constexpr int warp_cells = 7;
+
+// How much of bark lichen hides where it grows, and its colour, as linear light.
+constexpr double most_lichen = 0.55;
+constexpr glm::dvec3 lichen_light(0.30, 0.33, 0.25);
+
 glm::dvec3 linear(const Colour& colour) {
     return {srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
             srgb_to_linear(colour.b / 255.0)};
@@ -45,18 +52,31 @@ class BarkPainter {
     RawImages take() && { return std::move(images_); }
 
   private:
+    /// How far texels of a row are displaced before a noise is looked up, in features of `warp_cells`.
+    struct Warp {
+        std::vector<float> across, along;
+    };
+
     // Returns a row of noise with `round` features round the segment, each `longer` times as long
     // as wide.
+    //
+    // warp  displaces its features by so many of their widths; null for none
     [[nodiscard]] std::vector<float> noise_row(std::size_t y, int round, double longer,
-                                               std::uint32_t purpose) const {
+                                               std::uint32_t purpose, const Warp* warp = nullptr,
+                                               double by = 0.0) const {
         const double down =
             bark_girths * (static_cast<double>(y) + 0.5) / static_cast<double>(images_.side);
+        const auto period = static_cast<float>(round), far = static_cast<float>(by);
         std::vector<float> u(count_), v(count_), out(count_);
         for (std::size_t x = 0; x < count_; ++x) {
             u[x] = static_cast<float>((static_cast<double>(x) + 0.5) * round / images_.side);
             v[x] = static_cast<float>(down * round / longer);
+            if (warp == nullptr) continue;
+            u[x] += far * warp->across[x];
+            u[x] = std::clamp(u[x] - period * std::floor(u[x] / period), 0.0F, period);
+            v[x] += far * warp->along[x];
         }
-        periodic_noise(u, v, round, seed_ * 8U + purpose, out);
+        periodic_noise(u, v, round, seed_ * 16U + purpose, out);
         return out;
     }
 
@@ -70,33 +90,56 @@ class BarkPainter {
 };
 
 void BarkPainter::paint_row(std::size_t y) {
-    const std::vector<float> coarse = noise_row(y, style_.ridges, style_.stretch, 0U);
-    const std::vector<float> middle = noise_row(y, 2 * style_.ridges, style_.stretch, 1U);
-    const std::vector<float> fine = noise_row(y, 8 * style_.ridges, 2.0, 2U);
+    const int ridges = style_.ridges;
+    const Warp warp{noise_row(y, warp_cells, 1.7, 8U), noise_row(y, warp_cells - 1, 1.3, 9U)};
+    const std::vector<float> coarse = noise_row(y, ridges, style_.stretch, 0U, &warp, 0.35);
+    const std::vector<float> middle =
+        noise_row(y, 2 * ridges + 1, 0.8 * style_.stretch, 1U, &warp, 0.35);
+    const std::vector<float> across = noise_row(y, ridges, 0.35 * style_.stretch, 5U, &warp, 0.6);
+    const std::vector<float> uneven = noise_row(y, 3 * ridges + 2, 1.6, 6U);
+    const std::vector<float> fine = noise_row(y, 8 * ridges + 3, 2.0, 2U);
+    const std::vector<float> flakes = noise_row(y, 17 * ridges + 5, 1.4, 7U);
     const std::vector<float> spots = noise_row(y, 5, 1.0, 3U);
+    const std::vector<float> lichen = noise_row(y, 19, 1.1, 10U, &warp, 0.5);
     const std::vector<float> dashes = noise_row(y, 9, 0.16, 4U);
+    // Lichen finds hold on rough bark.
+    const double hold = most_lichen * smooth_step(0.2, 0.6, style_.furrows);
     for (std::size_t x = 0; x < count_; ++x) {
-        const double grain = static_cast<double>(fine[x]);
-        // Furrows follow the zero set of the noise: lines that diverge and meet.
-        const double from_furrow =
-            std::abs(static_cast<double>(coarse[x]) + 0.45 * static_cast<double>(middle[x]));
-        const double rise = smooth_step(0.0, 0.3, from_furrow + 0.05 * grain);
+        const auto of = [x](const std::vector<float>& row) { return static_cast<double>(row[x]); };
+        const double grain = of(fine), scale = of(flakes);
+        const double rough = 0.09 * of(uneven) + 0.05 * grain;
+        // Furrows follow a level set of the noise: lines that diverge and meet. That of 0 would go
+        // through every point of the lattice.
+        const double from_furrow = std::abs(of(coarse) + 0.1 + 0.45 * of(middle) + rough);
+        const double ridge = smooth_step(0.0, 0.30, from_furrow);
+        // Shorter cracks across the ridges part them into pieces.
+        const double piece = smooth_step(0.0, 0.13, std::abs(of(across) + 0.13 + rough));
+        const double rise =
+            ridge * (1.0 - 0.45 * (1.0 - piece)) + 0.10 * ridge * (of(uneven) + 0.6 * scale);
         const double lenticel =
             style_.lenticels > 0.0
                 ? smooth_step(0.58 - 0.42 * style_.lenticels, 0.76 - 0.42 * style_.lenticels,
-                              static_cast<double>(dashes[x]) + 0.06 * grain)
+                              of(dashes) + 0.10 * grain + 0.08 * of(uneven))
                 : 0.0;
-        glm::dvec3 light = ridge_ + style_.furrows * (1.0 - rise) * (furrow_ - ridge_);
-        light *= 1.0 + 0.22 * grain + 0.2 * static_cast<double>(spots[x]);
+        const double deep = style_.furrows * (1.0 - rise);
+        glm::dvec3 light = ridge_ + std::clamp(deep, 0.0, 1.0) * (furrow_ - ridge_);
+        // What stands out is bleached, and every flake has a tone of its own.
+        light *= 1.0 + 0.20 * grain + 0.16 * scale + 0.22 * of(spots) + 0.14 * of(uneven);
         light += lenticel * (dash_ - light);
+        const double grown = hold *
+                             smooth_step(0.30, 0.55, of(lichen) + 0.35 * of(spots) + 0.20 * scale) *
+                             smooth_step(0.35, 0.8, rise) * (1.0 - lenticel);
+        light += grown * (lichen_light * (1.0 + 0.25 * scale + 0.2 * grain) - light);
         const std::size_t at = y * count_ + x;
         for (std::size_t k = 0; k < 3; ++k)
-            images_.rgb[0][3 * at + k] = srgb_.of(static_cast<float>(light[static_cast<int>(k)]));
-        heights_[at] = static_cast<float>(deepest * (style_.furrows * rise * 12.0 / style_.ridges +
-                                                     0.04 * grain - 0.08 * lenticel));
-        images_.rgb[2][3 * at] = share_as_byte(1.0 - 0.55 * style_.furrows * (1.0 - rise));
+            images_.rgb[0][3 * at + k] =
+                srgb_.of(static_cast<float>(std::clamp(light[static_cast<int>(k)], 0.0, 1.0)));
+        heights_[at] = static_cast<float>(
+            deepest * (style_.furrows * rise * 14.0 / ridges + 0.05 * grain + 0.03 * scale +
+                       0.05 * of(uneven) + 0.05 * grown - 0.08 * lenticel));
+        images_.rgb[2][3 * at] = share_as_byte(1.0 - 0.6 * deep);
         images_.rgb[2][3 * at + 1] =
-            share_as_byte(0.85 + 0.1 * grain - 0.25 * (1.0 - style_.furrows));
+            share_as_byte(0.87 + 0.1 * grain - 0.22 * (1.0 - style_.furrows) + 0.1 * grown);
     }
 }
 

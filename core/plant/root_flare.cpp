@@ -9,6 +9,8 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/mesh/refinement.h"
+#include "core/mesh/tangents.h"
 
 namespace sporeprint {
 
@@ -23,6 +25,10 @@ constexpr double flare_end = 3.6;
 /// How far roots dip below the ground, in radii of the trunk, for a flare of 1: the foot of a tree on
 /// uneven ground stays covered.
 constexpr double dip = 0.6;
+
+/// Height below which the skin of a trunk is refined before it flares, in radii of the trunk: roots turn
+/// more sharply than a trunk.
+constexpr double refined_height = 3.0;
 
 /// The map of space about the foot of a trunk.
 class Flare {
@@ -41,8 +47,12 @@ class Flare {
         const double uneven = angle + 0.35 * sine(angle + phases_[1]);
         const double root = 0.5 + 0.5 * sine(roots_ * uneven + phases_[0]);
         const double strong = 0.8 + 0.2 * sine(2.0 * angle + phases_[2]);
-        const double factor = 1.0 + flare_ * fallen * strong * (0.35 + 1.1 * root * root);
-        return {p.x * factor, p.y - dip * flare_ * radius_ * fallen * root * root, p.z * factor};
+        // At the ground roots are narrow ridges that run out far.
+        const double ridge = root * root * root * root * fallen;
+        const double factor =
+            1.0 + flare_ * fallen * strong * (0.30 + 0.8 * root * root + 0.5 * ridge);
+        return {p.x * factor, p.y - dip * flare_ * radius_ * fallen * (0.3 + 0.7 * root * root),
+                p.z * factor};
     }
 
   private:
@@ -51,15 +61,40 @@ class Flare {
     std::array<double, 3> phases_{};
 };
 
+/// Returns how often the skin is refined at a level of detail.
+int passes(int lod) { return std::max(0, 2 - lod); }
+
 }  // namespace
 
-void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed) {
+TreeCount count_of_flare(const TreeShape& shape, int lod) {
+    TreeCount count;
+    if (shape.root_flare <= 0.0 || passes(lod) == 0) return count;
+    // Sides and rows below that height of the skin of bark_of(), where each pass makes four triangles
+    // of one.
+    const double sides = lod == 0 ? 16.0 : 8.0, rows = lod == 0 ? 15.0 : 6.0;
+    const double parts = lod == 0 ? 16.0 : 4.0;
+    count.triangles = 2.0 * sides * rows * (parts - 1.0);
+    count.vertices = 0.55 * count.triangles;
+    return count;
+}
+
+void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed, int lod) {
     if (flare <= 0.0) return;
     const double radius = tree.skeleton.nodes.front().radius;
     const Flare map(radius, flare, seed);
     const int trunk = tree.ramification.nodes.front().order;
     const double step = 1e-4 * radius, axis = 0.02 * radius;
     Mesh& mesh = bark.mesh;
+    for (int pass = 0; pass < passes(lod); ++pass) {
+        mesh.tangents.clear();
+        const std::vector<std::uint32_t>& edges = bark.edges;
+        const auto parents = refine(mesh, [&](std::uint32_t i) {
+            return tree.ramification.nodes[edges[i]].order == trunk &&
+                   static_cast<double>(mesh.positions[i].y) < refined_height * radius;
+        });
+        for (const auto& [a, b] : parents) bark.edges.push_back(bark.edges[a]);
+    }
+    if (passes(lod) > 0) add_tangents(mesh);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::dvec3 place(mesh.positions[i]);
         if (tree.ramification.nodes[bark.edges[i]].order != trunk ||

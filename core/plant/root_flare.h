@@ -11,9 +11,14 @@ namespace sporeprint {
 /// grows by a factor that falls to nothing within some radii of the trunk above the ground. Rays from
 /// the axis keep their order, so that no surface comes to cross itself; branches are not moved.
 ///
-/// bark   of the tree; normals follow, tangents keep their direction
+/// At the finest levels the skin is refined there first, so that roots are round.
+///
+/// bark   of the tree at this level; normals follow, tangents keep their direction
 /// flare  0 leaves it unchanged; at 1 the foot is about twice as wide as the trunk
 /// seed   of the places of the roots
-void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed);
+void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed, int lod);
+
+/// Returns slightly high estimates of the vertices and triangles that flare_roots() adds.
+[[nodiscard]] TreeCount count_of_flare(const TreeShape& shape, int lod);
 
 }  // namespace sporeprint

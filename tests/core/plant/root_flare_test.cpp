@@ -45,9 +45,15 @@ TEST(RootFlare, WidensTheFootAndNothingElse) {
                 SCOPED_TRACE(std::string(preset) + " at level " + std::to_string(lod));
                 const Grown before = grown(preset, seed, lod);
                 Grown after = before;
-                flare_roots(after.bark, after.tree, 1.0, seed);
+                flare_roots(after.bark, after.tree, 1.0, seed, lod);
                 expect_valid(after.bark.mesh);
-                EXPECT_EQ(after.bark.mesh.indices, before.bark.mesh.indices);
+                // Only the finest levels have more triangles, and no more than was counted.
+                const std::size_t more = after.bark.mesh.triangles() - before.bark.mesh.triangles();
+                TreeShape shape = params_of(*atlas().find_tree(preset)).look.shape;
+                shape.root_flare = 1.0;
+                EXPECT_LE(static_cast<double>(more), count_of_flare(shape, lod).triangles);
+                EXPECT_EQ(more > 0, lod < 2);
+                EXPECT_EQ(after.bark.edges.size(), after.bark.mesh.positions.size());
                 EXPECT_GT(volume(after.bark.mesh), volume(before.bark.mesh));
                 const double low = 0.3 * before.radius;
                 EXPECT_GT(reach(after.bark.mesh, low), 1.3 * reach(before.bark.mesh, low));
@@ -70,7 +76,7 @@ TEST(RootFlare, OfZeroChangesNothingAndEachSeedHasOtherRoots) {
     const Grown plain = grown("broadleaf", 1, 0);
     const auto flared = [&](double flare, std::uint32_t seed) {
         Bark bark = plain.bark;
-        flare_roots(bark, plain.tree, flare, seed);
+        flare_roots(bark, plain.tree, flare, seed, 0);
         return bark.mesh;
     };
     EXPECT_TRUE(same_bits(flared(0.0, 1), plain.bark.mesh));
@@ -80,7 +86,7 @@ TEST(RootFlare, OfZeroChangesNothingAndEachSeedHasOtherRoots) {
 
 TEST(RootFlare, NormalsFollow) {
     Grown made = grown("poplar", 4, 0);
-    flare_roots(made.bark, made.tree, 1.5, 4);
+    flare_roots(made.bark, made.tree, 1.5, 4, 0);
     const Mesh& mesh = made.bark.mesh;
     int along = 0, all = 0;
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
