@@ -96,12 +96,21 @@ void append_grid_vertices(Mesh& mesh, const GridSolid& solid, const glm::dvec3& 
             mesh.positions.emplace_back(p[at(i, j)]);
             mesh.normals.emplace_back(normal);
             if (!textured) continue;
-            const TexturePoint uv = point_of(solid, column_share(solid, j), row_share(solid, i));
+            const double round = column_share(solid, j), up = row_share(solid, i);
+            const TexturePoint uv =
+                solid.turned ? point_of(solid, up, round) : point_of(solid, round, up);
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
             const int ahead = j < solid.columns ? j + 1 : 1,
                       behind = j > 0 ? j - 1 : solid.columns - 1;
             const int side = pointed && i == solid.rows - 1 ? i - 1 : i;
             const bool back = is_back(solid, j);
+            if (solid.turned) {
+                const glm::dvec3 along =
+                    p[at(std::min(i + 1, solid.rows - 1), j)] - p[at(std::max(i - 1, 0), j)];
+                mesh.tangents.emplace_back(glm::vec3(square_to(normal, along)),
+                                           back ? 1.0F : -1.0F);
+                continue;
+            }
             const glm::dvec3 tangent =
                 (back ? -1.0 : 1.0) * (p[at(side, ahead)] - p[at(side, behind)]);
             // Columns run counter-clockwise with the tip above, so image-up points to the base; the
@@ -127,7 +136,9 @@ void append_base(Mesh& mesh, const GridSolid& solid, const glm::dvec3& fallback,
         mesh.positions.emplace_back(p[at(j)]);
         mesh.normals.emplace_back(below);
         if (!textured) continue;
-        const TexturePoint uv = point_of(solid, column_share(solid, j), 0.0);
+        const double round = column_share(solid, j);
+        const TexturePoint uv =
+            solid.turned ? point_of(solid, 0.0, round) : point_of(solid, round, 0.0);
         mesh.texture_coordinates.emplace_back(uv.u, uv.v);
         mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(1)] - p[at(0)])), 1.0F);
     }

@@ -55,6 +55,9 @@ struct GridSolid : SolidGrid {
     /// How often the window is shown round the solid, forth and back in turn, so that texels of a wide
     /// solid are not drawn out: 1, or an even divisor of the columns.
     int folds = 1;
+    /// True if the window lies on its side: along the rows it runs from base to tip along u, and round
+    /// the solid along v.
+    bool turned = false;
 };
 
 /// Appends a solid, painted by the strip of its part: round it along the columns, from its base to

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/budget.h"
@@ -21,9 +22,8 @@ namespace {
 
 // No source or measurement is recorded for the values down to `taper`.
 
-/// How far a spine stands out before it hangs, in its own lengths: at least, and more the less it
-/// droops.
-constexpr double least_stand = 0.15, stand = 0.25;
+/// How much farther than SpineStyle::stand a spine stands out that does not droop, in its own lengths.
+constexpr double upright_stand = 0.25;
 
 /// Largest deviation of a spine from its direction.
 constexpr double astray = 0.12;
@@ -37,28 +37,60 @@ constexpr double shaggy_stray = 2.0, shaggy_lean = 0.5, shaggy_bend = 0.6;
 constexpr int tufts_round = 23, tufts_along = 13, round_turns = 5, along_turns = 7;
 constexpr double tuft_winding = 0.35;
 
+/// SpineStyle::stand up to which a spine has a slender root, and from which on it is widest there;
+/// width of a slender root, in that which it would have otherwise, and where the inner rings of such
+/// a spine are, in the places that they would have.
+constexpr double slender_stand = 0.08, full_stand = 0.15, slender_root = 0.25, slender_middle = 0.6;
+
 /// Depth of its base in the body, in its own widths.
 constexpr double sunk = 0.6;
 
 /// How much slimmer than a cone it is: the exponent of its radius over the distance from the tip.
 constexpr double taper = 0.75;
 
+/// Depth of an upright fold in the body, in its heights above it.
+constexpr double fold_sunk = 0.45;
+
+/// How far the middle of a fold winds aside, in its widths for a meander of 1; how much farther its
+/// crest does; how far it is bowed, in its half lengths; how often it winds along its length, at least
+/// and at most, in turns.
+constexpr double fold_aside = 0.9, crest_aside = 0.7, fold_bow = 0.55, least_turns = 0.4,
+                 most_turns = 0.85;
+
+/// How far the crest of a fold sinks between its tops, in its height, and how much thinner it is there.
+constexpr double crest_waves = 0.45, crest_thin = 0.3;
+
+/// Exponents of the height and of the width of a fold over 1 - u^2, where u is -1 and 1 at its ends;
+/// least width there. Exponent of its cross-section, which is an ellipse at 1.
+constexpr double fold_rise = 0.55, fold_taper = 0.45, least_taper = 0.2, fold_section = 0.85;
+
+/// How far the crest of a fold lies in the body at both its ends, in the depth of its bottom there.
+constexpr double fold_end = 0.8;
+
+/// How far a fold leans to a side, in its heights.
+constexpr double fold_lean = 0.35;
+
 /// Resolution by the columns of a level of detail, and the most spines of a layer there.
 struct Resolution {
     int least_columns, rows, sides, most;
 };
 constexpr std::array<Resolution, 5> resolutions = {
-    {{64, 3, 3, 4000}, {48, 3, 3, 1000}, {28, 2, 3, 570}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
+    {{64, 3, 3, 6000}, {48, 3, 3, 1000}, {28, 2, 3, 570}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
+/// The same of upright folds.
+constexpr std::array<Resolution, 5> fold_resolutions = {
+    {{64, 24, 10, 100}, {48, 8, 6, 70}, {28, 6, 4, 75}, {12, 3, 4, 40}, {0, 3, 4, 8}}};
 
 /// The largest factor on the width of a spine that stands for several.
 constexpr double most_wide = 2.5;
 
-const Resolution& resolution_of(const Detail& detail) { return by_columns(resolutions, detail); }
+const Resolution& resolution_of(const SpineStyle& style, const Detail& detail) {
+    return by_columns(style.is_folded() ? fold_resolutions : resolutions, detail);
+}
 
 /// Returns how many spines of a layer a level builds: the first ones of the sequence.
 int built(const SpineLayer& layer, const OrnamentDetail& detail) {
     const double most = std::min(detail.offered(layer.style.count, sure_spines),
-                                 static_cast<double>(resolution_of(detail).most));
+                                 static_cast<double>(resolution_of(layer.style, detail).most));
     return static_cast<int>(std::floor(most * detail.free_solids + 0.5));
 }
 
@@ -151,26 +183,100 @@ void build_spine(GridSolid& solid, const SpineRoot& root, double length, double 
     const glm::dvec3 aside =
         shaggy_bend * style.shag * length * glm::dot(strays, sideways) * sideways;
     glm::dvec3 start = root.place - sunk * width * root.outwards;
-    const double stands = least_stand + stand * (1.0 - style.droop);
+    const double stands = style.stand + upright_stand * (1.0 - style.droop);
     const glm::dvec3 bend = root.place + length * stands * root.outwards + aside;
     const glm::dvec3 tip = bend - aside + length * hangs;
     // A straight spine begins on the way to the bend, so that it lies as the curved one does.
     if (solid.rows == 2) start = 0.5 * (start + bend);
     solid.corners.clear();
     glm::dvec3 side = square_to(root.outwards, glm::dvec3(0.36, 0.48, 0.8));
+    // A spine that hangs down at once lies on the surface, and comes out of it slender.
+    const double stands_out = smooth_step(slender_stand, full_stand, style.stand);
+    const double root_width = slender_root + (1.0 - slender_root) * stands_out;
+    const double inner = slender_middle + (1.0 - slender_middle) * stands_out;
     for (int i = 0; i < solid.rows; ++i) {
-        const double t = static_cast<double>(i) / (solid.rows - 1);
+        const double t =
+            (i + 1 < solid.rows ? inner : 1.0) * static_cast<double>(i) / (solid.rows - 1);
         // A quadratic curve that leaves the surface at a right angle.
         const glm::dvec3 centre =
             (1.0 - t) * (1.0 - t) * start + 2.0 * t * (1.0 - t) * bend + t * t * tip;
         const glm::dvec3 along = unit_or((1.0 - t) * (bend - start) + t * (tip - bend), down);
         side = square_to(along, side);
         const glm::dvec3 third = glm::cross(along, side);
-        const double radius = t < 1.0 ? 0.5 * width * power(1.0 - t, taper) : 0.0;
+        const double radius =
+            t < 1.0 ? 0.5 * width * power(1.0 - t, taper) * (i == 0 ? root_width : 1.0) : 0.0;
         for (int j = 0; j <= solid.columns; ++j) {
             const SineCosine turn =
                 sine_cosine(turned + 2.0 * pi * (j % solid.columns) / solid.columns);
             solid.corners.push_back(centre + radius * (turn.cosine * side + turn.sine * third));
+        }
+    }
+}
+
+double signed_power(double value, double exponent) {
+    const double size = power(std::abs(value), exponent);
+    return value < 0.0 ? -size : size;
+}
+
+/// Builds one upright fold: rows of cross-sections along a winding line on the surface, from one end to
+/// the other; both ends lie in the body. Columns begin at the bottom.
+void build_fold(GridSolid& solid, const SpineRoot& root, double height, double width,
+                const SpineStyle& style, Random& random) {
+    const double heading = random.uniform(0.0, 2.0 * pi), bow = random.symmetric();
+    const double lean = random.symmetric();
+    const double turns = random.uniform(least_turns, most_turns);
+    const double aside_phase = random.uniform(0.0, 2.0 * pi),
+                 crest_phase = random.uniform(0.0, 2.0 * pi),
+                 wave_phase = random.uniform(0.0, 2.0 * pi);
+    const glm::dvec3& out = root.outwards;
+    const glm::dvec3 first = square_to(out, glm::dvec3(0.36, 0.48, 0.8)),
+                     second = glm::cross(out, first);
+    const SineCosine turn = sine_cosine(heading);
+    const glm::dvec3 forwards = turn.cosine * first + turn.sine * second,
+                     sideways = glm::cross(out, forwards);
+    const double half = 0.5 * style.breadth * width;
+    const double sunk_depth = fold_sunk * height;
+    // Returns the middle of the fold on the surface at a place along it, -1..1.
+    const auto middle = [&](double u) {
+        const double wind = sine_cosine(aside_phase + 2.0 * pi * turns * u).sine;
+        const glm::dvec3 flat =
+            half * u * forwards +
+            (style.meander * (fold_aside * width * wind + fold_bow * half * bow * (u * u - 0.4))) *
+                sideways;
+        return root.place + flat - 0.5 * root.curvature * glm::dot(flat, flat) * out;
+    };
+    solid.corners.clear();
+    for (int i = 0; i < solid.rows; ++i) {
+        const double u = 2.0 * i / (solid.rows - 1.0) - 1.0;
+        const glm::dvec3 centre = middle(u);
+        if (i == solid.rows - 1) {
+            // The end of the fold is one point in the body.
+            solid.corners.insert(solid.corners.end(), static_cast<std::size_t>(solid.columns) + 1,
+                                 centre - 0.9 * sunk_depth * out);
+            continue;
+        }
+        const double step = 0.05;
+        const glm::dvec3 along = unit_or(middle(u + step) - middle(u - step), forwards);
+        // Seen along the fold, columns run counter-clockwise from the bottom.
+        const glm::dvec3 left = unit_or(glm::cross(out, along), sideways);
+        const double inside = std::max(1.0 - u * u, 0.0);
+        const double wave =
+            0.5 + 0.5 * sine_cosine(wave_phase + 2.0 * pi * (turns + 0.35) * u).sine;
+        const double rise = power(inside, fold_rise);
+        const double top = height * rise * (1.0 - crest_waves * style.meander * wave) -
+                           fold_end * sunk_depth * (1.0 - rise);
+        const double thick = 0.5 * width * std::max(power(inside, fold_taper), least_taper) *
+                             (1.0 - crest_thin * style.meander * wave);
+        const double over = sine_cosine(crest_phase + 2.0 * pi * (turns + 0.2) * u).sine;
+        for (int j = 0; j <= solid.columns; ++j) {
+            const SineCosine round = sine_cosine(2.0 * pi * (j % solid.columns) / solid.columns);
+            const double up = 0.5 - 0.5 * signed_power(round.cosine, fold_section);
+            const double aside = thick * signed_power(round.sine, fold_section);
+            const double crest =
+                up * up *
+                (style.meander * crest_aside * width * over + fold_lean * lean * height * rise);
+            solid.corners.push_back(centre + (up * (top + sunk_depth) - sunk_depth) * out +
+                                    (aside + crest) * left);
         }
     }
 }
@@ -181,6 +287,7 @@ struct SweptFace {
     Tufts tufts;
     AxisStation station;
     std::vector<OutlineSample> upper;  ///< rings of the cap's mesh
+    double curvature;                  ///< about that of the body, 1/m
 };
 
 /// Returns the root of the k-th spine of a layer.
@@ -208,8 +315,12 @@ SpineRoot root_on(const SweptFace& face, const Meridian& meridian, const SpineSt
         unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, -1.0, 0.0));
     const glm::dvec2 lean = face.tufts.lean({share, at.round});
     return {
-        point.position, outwards, meridian.within(share), 1.0,
-        lean.x * square_to(outwards, point.azimuth) + lean.y * square_to(outwards, point.meridian)};
+        point.position,
+        outwards,
+        meridian.within(share),
+        1.0,
+        lean.x * square_to(outwards, point.azimuth) + lean.y * square_to(outwards, point.meridian),
+        face.curvature};
 }
 
 }  // namespace
@@ -223,9 +334,9 @@ SpinePlace spine_place(int number) {
 
 MeshCount spine_count(const std::vector<SpineLayer>& layers, const OrnamentDetail& detail,
                       bool keep_absent) {
-    const Resolution& resolution = resolution_of(detail);
     MeshCount sum;
     for (const SpineLayer& layer : layers) {
+        const Resolution& resolution = resolution_of(layer.style, detail);
         MeshCount all =
             SolidGrid{resolution.rows, resolution.sides, false}.count().times(built(layer, detail));
         if (!keep_absent && !is_present(layer)) all.triangles = 0;
@@ -247,9 +358,13 @@ OrnamentDetail spine_detail(const std::vector<SpineLayer>& layers, DetailLevel l
 void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detail,
                 std::uint32_t seed, bool textured, bool keep_absent,
                 const std::function<SpineRoot(int)>& root_of) {
-    const Resolution& resolution = resolution_of(detail);
-    GridSolid solid{{resolution.rows, resolution.sides, false}, Part::blade, {}, {}};
     const SpineStyle& style = layer.style;
+    const Resolution& resolution = resolution_of(style, detail);
+    GridSolid solid{{resolution.rows, resolution.sides, false}, Part::blade, {}, {}};
+    if (style.is_folded()) {
+        solid.turned = true;
+        solid.folds = 2;
+    }
     const int count = built(layer, detail);
     if (count == 0) return;
     // Those that become shorter along the meridian lose the shortest ones, which nobody misses.
@@ -268,16 +383,29 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detai
         const SpineRoot root = root_of(k);
         const double scale = layer.weight * root.grown;
         const double reach = 1.0 - style.shortening * root.along;
-        build_spine(solid, root, scale * shorter * reach * style.length,
-                    scale * thinner * wider * style.width, style, random);
+        const double length = scale * shorter * reach * style.length,
+                     width = scale * thinner * wider * style.width;
+        if (style.is_folded())
+            build_fold(solid, root, length, width, style, random);
+        else
+            build_spine(solid, root, length, width, style, random);
         append(mesh, solid, root.outwards, textured, is_present(layer) || keep_absent);
     }
 }
 
 void add_spines(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
+    std::vector<OutlineSample> upper = context.outline.rings(CurveName::cap, context.level);
+    // The body is about as much bent as a ball with its least half extent.
+    double widest = 1e-6, low = 1e9, high = -1e9;
+    for (const OutlineSample& at : upper) {
+        widest = std::max(widest, at.r);
+        low = std::min(low, at.y);
+        high = std::max(high, at.y);
+    }
+    const double ball = std::min(widest, std::max(0.5 * (high - low), 1e-6));
     const SweptFace face{context, Tufts(context.seed),
-                         context.deformer.frozen_station(context.deformer.top()),
-                         context.outline.rings(CurveName::cap, context.level)};
+                         context.deformer.frozen_station(context.deformer.top()), std::move(upper),
+                         1.0 / ball};
     for (const SpineLayer& layer : individual.spines) {
         const Meridian meridian(context.outline, layer.style.from, layer.style.to);
         add_spines(mesh, layer, context.detail, context.seed, context.textured, context.keep_absent,

@@ -1,4 +1,4 @@
-// Hanging spines (Hericium) as solids.
+// Hanging spines (Hericium) and upright folds (jellies) as solids.
 #pragma once
 
 #include <functional>
@@ -17,6 +17,7 @@ struct SpineRoot {
     double grown = 1.0;   ///< factor on the size, above 0, as of a branch that has begun to grow
     /// Tangent of the surface, towards the middle of the spine's tuft; of length 0 to 1.5.
     glm::dvec3 lean = glm::dvec3(0.0);
+    double curvature = 0.0;  ///< of the surface, 1/m: mean of its directions, positive if convex
 };
 
 /// A place in the unit square for each spine of a sequence, evenly spread however many are used.

@@ -33,8 +33,10 @@ class StageCheck {
         check_places(first.scales, model.scales, "/scales");
         check_places(first.volva, model.volva, "/volva");
         if (first.spines.count != model.spines.count || first.spines.from != model.spines.from ||
-            first.spines.to != model.spines.to)
-            add("/spines", "count, from and to are those of the first stage");
+            first.spines.to != model.spines.to ||
+            first.spines.is_folded() != model.spines.is_folded())
+            add("/spines",
+                "count, from, to and whether they have a breadth are those of the first stage");
         if (first.peridioles.count != model.peridioles.count)
             add("/peridioles/count",
                 "every stage has as many as the first; how many are left is "

@@ -5,9 +5,9 @@
 
 namespace sporeprint {
 
-/// Long spines that hang from a cushion or from branches (Hericium): solids at every level of
-/// detail, painted as the hymenium that they are. The short teeth of a hedgehog's lower face are a
-/// pattern of the hymenium instead.
+/// Long spines that hang from a cushion or from branches (Hericium), or upright folds that wind over a
+/// cushion (jellies): solids at every level of detail, painted as the hymenium that they are. The
+/// short teeth of a hedgehog's lower face are a pattern of the hymenium instead.
 struct SpineStyle {
     int count = 0;
     double length = 0.01;
@@ -18,12 +18,15 @@ struct SpineStyle {
     double unevenness = 0.4;
     double shortening = 0.0;
     double shag = 0.0;
+    double stand = 0.15;
+    double breadth = 0.0;
+    double meander = 0.5;
 
     static constexpr void fields(auto visit) {
         using S = SpineStyle;
         visit(&S::count, Info{.name = "count",
                               .min = 0,
-                              .max = 4000,
+                              .max = 6000,
                               .doc = "Spines at level of detail 0; coarser ones have fewer and "
                                      "thicker ones."});
         visit(&S::length, Info{.name = "length",
@@ -66,7 +69,24 @@ struct SpineStyle {
                              .max = 1,
                              .doc = "0 spines of one kind, 1 shaggy hair: bent, each its own way, "
                                     "and gathered in tufts."});
+        visit(&S::stand, Info{.name = "stand",
+                              .min = 0,
+                              .max = 0.5,
+                              .doc = "How far a spine stands out before it hangs, in its own "
+                                     "lengths; spines that droop less stand out farther."});
+        visit(&S::breadth,
+              Info{.name = "breadth",
+                   .min = 0,
+                   .max = 20,
+                   .doc = "0: round spines. Otherwise upright folds that run along the surface for "
+                          "so many of their widths; `length` is their height."});
+        visit(&S::meander, Info{.name = "meander",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "How much such a fold winds, and how uneven its crest is."});
     }
+    /// Returns true for upright folds in place of round spines.
+    [[nodiscard]] constexpr bool is_folded() const { return breadth > 0.0; }
     bool operator==(const SpineStyle&) const = default;
 };
 

@@ -123,6 +123,45 @@ TEST(Spines, ShaggyOnesLeanToTheMiddleOfTheirTuftAndEachItsOwnWay) {
     EXPECT_GT(spread(shaggy).y, 2.0 * spread(plain).y) << "and stray more";
 }
 
+TEST(Spines, UprightFoldsAreClosedAndBothTheirEndsLieInTheBody) {
+    SpineLayer layer = layer_of(20, 0.01, 0.0);
+    layer.style.width = 0.002;
+    layer.style.breadth = 6.0;
+    layer.style.meander = 1.0;
+    for (int lod = 0; lod < 4; ++lod) {
+        const Mesh mesh = spines(layer, {0.0, 0.0, 1.0}, lod);
+        const MeshCount count = spine_count({layer}, detail_of(lod));
+        EXPECT_EQ(mesh.positions.size(), count.vertices);
+        EXPECT_EQ(mesh.triangles(), count.triangles);
+        for (const Mesh& piece : pieces(mesh)) {
+            EXPECT_GT(volume(piece), 0.0);
+            float low = 1.0F, high = -1.0F, left = 1e9F, right = -1e9F;
+            for (const glm::vec3& p : piece.positions) {
+                low = std::min(low, p.z);
+                high = std::max(high, p.z);
+                left = std::min(left, p.x);
+                right = std::max(right, p.x);
+            }
+            EXPECT_LT(low, -0.003F) << "its bottom is in the body";
+            EXPECT_GT(high, 0.004F);
+            EXPECT_LE(high, 0.0101F) << "no fold is higher than the longest";
+            EXPECT_LT(right - left, 0.03F);
+        }
+    }
+}
+
+TEST(Spines, StandOutAsFarAsTheySayBeforeTheyHang) {
+    SpineLayer layer = layer_of(20, 0.02, 1.0);
+    const auto reach = [&](double stand) {
+        layer.style.stand = stand;
+        float most = 0.0F;
+        for (const glm::vec3& p : spines(layer, {0.0, 0.0, 1.0}).positions)
+            most = std::max(most, p.z);
+        return most;
+    };
+    EXPECT_GT(reach(0.4), reach(0.05) + 0.004F);
+}
+
 TEST(Spines, OfLengthZeroHaveNoTriangles) {
     const SpineLayer none = layer_of(10, 0.0, 1.0);
     EXPECT_TRUE(spines(none, {0.0, 1.0, 0.0}).indices.empty());
@@ -138,7 +177,7 @@ TEST(Spines, OfACoralUseAtMostHalfOfItsTriangles) {
 }
 
 TEST(Spines, OfSpeciesAreValidAtEveryAge) {
-    for (const char* id : {"cyathus_striatus", "hericium_erinaceus"})
+    for (const char* id : {"cyathus_striatus", "hericium_erinaceus", "tremella_mesenterica"})
         for (const double age : {0.0, 0.3, 0.6, 1.0})
             for (int lod = 0; lod < 4; ++lod) expect_valid(mesh_of(order_of(id, age, 3, lod)));
 }
