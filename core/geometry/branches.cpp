@@ -105,6 +105,13 @@ constexpr double texture_twist = 0.35;
 constexpr double short_piece = 0.7;
 constexpr std::uint32_t round_sides = 6;
 
+/// Returns 0 at both ends of a segment, 1 in its middle; it is flat at all three, so that one segment
+/// goes over into the next without a knee.
+double bulge_at(double t) {
+    const double middle = 4.0 * t * (1.0 - t);
+    return middle * middle;
+}
+
 glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
 
 /// Returns the factor on the radius of a polygon that gives it the mean width of the circle round
@@ -279,7 +286,7 @@ class TubeBuilder {
             graph_.gnarl * gnarl_bend * radius * length / (length + bend_length * radius + 1e-12);
         const glm::dvec3 across = square_to(station.along, node(i).across);
         const glm::dvec3 third = glm::cross(across, station.along);
-        const double middle = 4.0 * t * (1.0 - t), halves = gnarl_swing * middle * (1.0 - 2.0 * t);
+        const double middle = bulge_at(t), halves = gnarl_swing * middle * (1.0 - 2.0 * t);
         station.at += size * ((middle * bend.cosine + halves * swing.cosine) * across +
                               (middle * bend.sine + halves * swing.sine) * third);
     }
@@ -287,8 +294,7 @@ class TubeBuilder {
     // Returns the factor on the radius of a segment at a share of its way.
     [[nodiscard]] double lumps_at(std::uint32_t i, double t, double at_fork) const {
         const BranchGraph::Gnarl& own = node(i).gnarl;
-        const double middle = 4.0 * t * (1.0 - t);
-        return 1.0 + graph_.gnarl * (gnarl_lumps * own.lump * middle +
+        return 1.0 + graph_.gnarl * (gnarl_lumps * own.lump * bulge_at(t) +
                                      gnarl_knees * (1.0 + own.knee) * at_fork);
     }
 
