@@ -6,6 +6,7 @@
 
 #include "core/math/direction.h"
 #include "core/surface/charts.h"
+#include "core/surface/veil_bands.h"
 
 namespace sporeprint {
 
@@ -14,8 +15,10 @@ namespace {
 /// Returns the texture coordinate at shares of the way round a solid and up from its base.
 TexturePoint point_of(const GridSolid& solid, double round, double up) {
     const auto& [from_u, to_u, from_v, to_v] = solid.window;
+    // A loop shows both sides of the veil, anything else the outer one alone.
+    const double shown = solid.part == Part::veil && !solid.loops ? veil_outer_to : 1.0;
     return strip_point(swept_charts[index_of(solid.part)], from_u + round * (to_u - from_u),
-                       from_v + up * (to_v - from_v));
+                       shown * (from_v + up * (to_v - from_v)));
 }
 
 /// Returns true if the window is shown backwards at a column.
@@ -34,8 +37,12 @@ double column_share(const GridSolid& solid, int column) {
 /// Returns where a row is in the window of a solid, 0..1.
 double row_share(const GridSolid& solid, int row) {
     const int last = solid.rows - 1;
-    if (solid.loops)
-        return std::min(std::min(row, last - row) / (0.5 * solid.rows - 1.0 + 1e-9), 1.0);
+    if (solid.loops) {
+        const double edge = 0.5 * solid.rows - 1.0 + 1e-9;
+        return row < solid.rows / 2
+                   ? veil_outer_to * std::min(row / edge, 1.0)
+                   : 1.0 - (1.0 - veil_inner_from) * std::min((last - row) / edge, 1.0);
+    }
     if (solid.crest > 0 && row > solid.crest)
         return static_cast<double>(last - row) / (last - solid.crest);
     return static_cast<double>(row) / (solid.crest > 0 ? solid.crest : last);
@@ -64,6 +71,13 @@ void append_grid_triangles(Mesh& mesh, GridSolid& solid, std::uint32_t first) {
     for (int i = 0; i < bands; ++i)
         for (int j = 0; j < solid.columns; ++j) {
             const int above = (i + 1) % solid.rows;
+            // The diagonals of both sides of a thin loop lie opposite each other, so that a bent one
+            // stays thick.
+            if (solid.loops && i >= solid.rows / 2) {
+                add(at(i, j), at(i, j + 1), at(above, j + 1));
+                add(at(i, j), at(above, j + 1), at(above, j));
+                continue;
+            }
             add(at(i, j), at(i, j + 1), at(above, j));
             if (!(pointed && above == solid.rows - 1))
                 add(at(i, j + 1), at(above, j + 1), at(above, j));
@@ -114,9 +128,8 @@ void append_grid_vertices(Mesh& mesh, const GridSolid& solid, const glm::dvec3& 
             const glm::dvec3 tangent =
                 (back ? -1.0 : 1.0) * (p[at(side, ahead)] - p[at(side, behind)]);
             // Columns run counter-clockwise with the tip above, so image-up points to the base; the
-            // other side of a ring, and of a crest, is mirrored.
-            const bool mirrored =
-                solid.loops ? i >= solid.rows / 2 : solid.crest > 0 && i > solid.crest;
+            // other side of a crest is mirrored.
+            const bool mirrored = solid.crest > 0 && i > solid.crest;
             mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
                                        mirrored != back ? 1.0F : -1.0F);
         }

@@ -50,7 +50,8 @@ struct GridSolid : SolidGrid {
     /// The piece of the strip that paints it: from and to along u and v, 0..1.
     std::array<double, 4> window = {0.0, 1.0, 0.0, 1.0};
     /// The row that shows the far side of the window, beyond which it is mirrored back to its near
-    /// side at the tip; 0: the last row shows the far side. Not of a ring, which is always mirrored.
+    /// side at the tip; 0: the last row shows the far side. Not of a ring, which has an image for
+    /// either side.
     int crest = 0;
     /// How often the window is shown round the solid, forth and back in turn, so that texels of a wide
     /// solid are not drawn out: 1, or an even divisor of the columns.
@@ -61,7 +62,8 @@ struct GridSolid : SolidGrid {
 };
 
 /// Appends a solid, painted by the strip of its part: round it along the columns, from its base to
-/// its tip (or to its crest, or to the middle row of a loop) along the rows. Normals are area-weighted.
+/// its tip (or to its crest) along the rows; a loop shows the outer side of the veil up to its middle
+/// row, and the inner side back from there. Normals are area-weighted.
 ///
 /// fallback  normal where none can be computed, as of a solid that is a point
 /// drawn     false appends the vertices alone

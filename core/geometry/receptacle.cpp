@@ -14,6 +14,7 @@
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/surface/charts.h"
+#include "core/surface/veil_bands.h"
 
 namespace sporeprint {
 
@@ -389,7 +390,7 @@ void append_mesh(Mesh& mesh, const NetMesh& one, const OrnamentContext& context,
             if (!context.textured) continue;
             const TexturePoint uv =
                 strip_point(veil, static_cast<double>(j) / static_cast<double>(columns),
-                            painted(static_cast<double>(band) / bands));
+                            veil_outer_to * painted(static_cast<double>(band) / bands));
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
             mesh.tangents.emplace_back(
                 glm::vec3(square_to(turned, station.direction(place, ahead))), -1.0F);

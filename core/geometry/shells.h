@@ -6,7 +6,7 @@
 namespace sporeprint {
 
 /// Returns the exact counts of the ring and the sac together.
-[[nodiscard]] MeshCount shell_count(const Individual& individual, const Detail& detail);
+[[nodiscard]] MeshCount shell_count(const Individual& individual, const OrnamentDetail& detail);
 
 /// Appends the ring, a closed thin shell attached to the stem; at size 0 it is a circle round the
 /// stem.

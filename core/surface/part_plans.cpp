@@ -379,6 +379,12 @@ VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
     plan.across = single(static_cast<double>(frame.height) / frame.width);
     plan.colour = light_of(params.surface.veil.colour);
     plan.tip = light_of(params.surface.veil.tip);
+    // The side that was torn off the flesh is nearly of its colour.
+    constexpr float of_veil = 0.22F;
+    const Light flesh = light_of(params.surface.flesh.colour);
+    plan.inner = {flesh.r + of_veil * (plan.colour.r - flesh.r),
+                  flesh.g + of_veil * (plan.colour.g - flesh.g),
+                  flesh.b + of_veil * (plan.colour.b - flesh.b)};
     plan.roughness = single(params.surface.veil.roughness);
     plan.pits = single(params.surface.veil.pits);
     return plan;

@@ -9,6 +9,7 @@
 
 #include "core/surface/charts.h"
 #include "core/surface/damage.h"
+#include "core/surface/veil_bands.h"
 
 namespace sporeprint {
 
@@ -270,6 +271,7 @@ struct VeilPlan {
     float texel = 0.0F;   ///< in lengths of the strip
     float across = 0.1F;  ///< width of the strip over its length
     Light colour, tip;
+    Light inner;  ///< colour of the side that was torn off the flesh
     float roughness = 0.85F;
     float pits = 0.0F;  ///< depth of the pits of a sponge, 0..1
 };

@@ -309,10 +309,22 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     return out;
 }
 
+/// How fibrils of a membrane split: how many there are of the coarse and of the fine ones round it.
+constexpr int coarse_fibrils = 53, fine_fibrils = 149;
+
 HWY_INLINE void veil_fields(const VeilPlan& plan, VF turn, VF across, VF* fields) {
-    fields[veil_thread] = periodic_noise2(turn * set(92.0F), across * set(1.6F), 92, plan.seed[0]) *
-                          shown(set(1.0F / (92.0F * plan.texel)), 4.0F);
+    const auto fibrils = [&](int number, float rows, std::uint32_t seed) {
+        const VF count = set(static_cast<float>(number));
+        return periodic_noise2(turn * count, across * set(rows), number, seed) *
+               shown(set(1.0F / (static_cast<float>(number) * plan.texel)), 4.0F);
+    };
+    // Bundles of fibrils come and go, so that they nowhere stand in a row.
+    const VF coarse = fibrils(coarse_fibrils, 1.3F, plan.seed[0]),
+             fine = fibrils(fine_fibrils, 2.7F, plan.seed[0] + 1U);
     fields[veil_cloud] = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
+    const VF bundled = hn::Max(hn::Min(set(0.5F) + fields[veil_cloud], set(1.0F)), set(0.0F));
+    fields[veil_thread] =
+        coarse * (set(0.35F) + set(0.4F) * bundled) + fine * (set(0.75F) - set(0.4F) * bundled);
 }
 
 /// Pits of a sponge: chambers of two sizes with thin walls between them. They replace threads and
@@ -341,26 +353,37 @@ HWY_INLINE void add_pits(const VeilPlan& plan, VF turn, VF across, Texel& texel)
     texel.roughness = set(plan.roughness) + deep * set(0.15F);
 }
 
-/// Returns a texel of the veil. turn: 0..1 along the strip; across: 0 at the attachment, 1 at the
-/// edge. Heights are in lengths of the strip.
-HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* fields) {
+/// Returns a texel of the veil. turn: 0..1 along the strip; across: from the attachment of its outer
+/// side by its edge to that of its inner side. Heights are in lengths of the strip.
+HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF strip, const VF* fields) {
+    constexpr float outer_to = static_cast<float>(veil_outer_to),
+                    inner_from = static_cast<float>(veil_inner_from);
     const VF one = set(1.0F);
     Texel out;
     const VF thread = fields[veil_thread];
     const VF cloud = fields[veil_cloud];
     const VF grain =
-        periodic_noise2(turn * set(160.0F), across * set(160.0F * plan.across), 160, plan.seed[2]) *
+        periodic_noise2(turn * set(160.0F), strip * set(160.0F * plan.across), 160, plan.seed[2]) *
         shown(set(1.0F / (160.0F * plan.texel)), 4.0F);
-    Rgb colour = mix(rgb(plan.colour), rgb(plan.tip),
-                     smooth(across + cloud * set(0.18F) + thread * set(0.10F), 0.35F, 1.5F));
-    const VF fade_out = one - set(0.5F) * across;
-    out.colour = shaded(
-        colour, one + thread * set(0.13F) * fade_out + cloud * set(0.05F) + grain * set(0.06F));
-    out.height = thread * set(0.16F / 92.0F) * fade_out + grain * set(0.05F / 160.0F);
-    out.roughness = set(plan.roughness) + grain * set(0.05F);
-    // The fold at the attachment is in shade.
-    out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) +
-                    hn::Min(thread, set(0.0F)) * set(0.2F);
+    // Both sides are 0 at the attachment and 1 at the edge.
+    const VF across = hn::Min(strip * set(1.0F / outer_to), one);
+    const VF within = hn::Min((one - strip) * set(1.0F / (1.0F - inner_from)), one);
+    const VF inner = smooth(strip, 0.5F * (outer_to + inner_from) - 0.004F, 125.0F);
+    const VF to_edge = across + inner * (within - across);
+    const Rgb outside = mix(rgb(plan.colour), rgb(plan.tip),
+                            smooth(across + cloud * set(0.18F) + thread * set(0.10F), 0.35F, 1.5F));
+    // The inner side is pale and woolly, and takes the colour of the edge only near it.
+    const Rgb inside = mix(rgb(plan.inner), rgb(plan.tip),
+                           smooth(within + cloud * set(0.12F) + thread * set(0.16F), 0.8F, 4.0F));
+    const VF fade_out = one - set(0.5F) * to_edge;
+    const VF woolly = set(0.09F) + set(0.05F) * inner;
+    out.colour = shaded(mix(outside, inside, inner),
+                        one + thread * woolly * fade_out + cloud * set(0.05F) + grain * set(0.03F));
+    out.height = thread * set(0.14F / 92.0F) * fade_out + grain * set(0.03F / 160.0F);
+    out.roughness = set(plan.roughness) + grain * set(0.04F);
+    // The fold at the attachment is in shade, on the outer side above all.
+    const VF shade = (set(0.28F) - set(0.18F) * inner) * (one - smooth(to_edge, 0.0F, 3.0F));
+    out.occlusion = one - shade + hn::Min(thread, set(0.0F)) * set(0.12F);
     if (plan.pits > 0.0F) add_pits(plan, turn, across, out);
     return out;
 }
