@@ -40,8 +40,9 @@ constexpr double vanishing_place = 0.003, vanishing_width = 0.004, vanishing_len
 // Share by which rows of a blade are moved towards the stem, where its edge is most curved.
 constexpr double row_crowding = 0.55;
 
-// Shortest part of a decurrent blade on the stem, in that of the longest: blades do not end in a line.
-constexpr double shortest_down = 0.25;
+// Shortest part of a decurrent blade on the stem, in that of the longest: blades do not end in a line,
+// and few are long.
+constexpr double shortest_down = 0.15;
 
 // Share of the meridian within which blades that are not decurrent begin at the stem, and the
 // shares before the margin between which blades end: unlike each other, so that neither line is
@@ -51,6 +52,10 @@ constexpr double begins_within = 0.035, ends_before = 0.006, ends_within = 0.022
 // Shares of the meridian over which a blade that is not decurrent, and the outer end of each, are
 // rounded.
 constexpr double begin_rounding = 0.035, end_rounding = 0.045, ridge_end = 0.24;
+
+// Share of the meridian within which the first rows of a decurrent blade stand, where it turns from
+// the stem to the cap.
+constexpr double turning = 0.17;
 
 // Rows of a blade within either rounded end, and the share of it after which the second one stands.
 constexpr int end_rows = 2;
@@ -118,7 +123,7 @@ constexpr double decurrent_thickness = 12.0;
 
 // Largest height of a decurrent blade beyond the outline: in depths, and in lengths of the part on
 // the stem, so that a hardly decurrent blade tapers.
-constexpr double protrusion = 0.55, most_protrusion = 0.3;
+constexpr double protrusion = 0.55, most_protrusion = 0.2;
 
 // Length of a cross vein on the blades' image, in lengths of the meridian.
 constexpr double vein_texture_length = 0.06;
@@ -211,7 +216,8 @@ struct Ripple {
         phase = random.uniform();
         other = random.uniform();
         pitch = random.uniform(least_ripples, most_ripples);
-        down = random.uniform(shortest_down, 1.0);
+        const double long_down = random.uniform();
+        down = shortest_down + (1.0 - shortest_down) * long_down * (0.4 + 0.6 * long_down);
         start = random.uniform();
         finish = random.uniform();
         shallow = random.uniform();
@@ -572,8 +578,11 @@ double rounding(double most, double length) {
 
 /// Returns the share of the meridian at which a row of a blade stands: some are within its rounded
 /// ends, the others between them.
-double row_share(int row, int segments, double begin, double end, double rounded_end) {
-    const double first = rounding(begin_rounding, end - begin),
+///
+/// rounded_begin, rounded_end  shares over which its ends are rounded
+double row_share(int row, int segments, double begin, double end, double rounded_begin,
+                 double rounded_end) {
+    const double first = rounding(rounded_begin, end - begin),
                  last = rounding(rounded_end, end - begin);
     const int rows = std::min(end_rows, (segments - 2) / 4);
     const auto within = [&](int at) { return at == 0 ? 0.0 : at == rows ? 1.0 : second_row; };
@@ -596,8 +605,9 @@ void Builder::plan_stem_rows(const BladeBudget& budget, const SlotBlend& blend, 
         const double up = static_cast<double>(j) / budget.below;
         Plan plan;
         plan.along = blend.begin * face_.length() - blend.down * stem_length * (1.0 - up);
-        plan.height = beyond * smooth_step(0.0, 1.0, up);
-        plan.half = rising_thickness + (1.0 - rising_thickness) * up;
+        // It ends as thin and as low as it can be, along the stem.
+        plan.height = beyond * up * up * (1.6 - 0.6 * up);
+        plan.half = up * (2.0 - up);
         // A blade that is hardly decurrent begins in the flesh, where it does in a species that is
         // not.
         plan.buried = std::max(0.0, 1.0 - blend.down / least_decurrence);
@@ -612,7 +622,9 @@ void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeB
     const double begin = blend.begin, reach = blend.end - begin;
     const double decurrent = std::min(1.0, decurrent_thickness * blend.down);
     for (int j = 0; j <= budget.segments; ++j) {
-        const double share = row_share(j, budget.segments, begin, blend.end, blend.rounded_end);
+        const double share =
+            row_share(j, budget.segments, begin, blend.end,
+                      begin_rounding + decurrent * (turning - begin_rounding), blend.rounded_end);
         Plan plan;
         plan.along = share * length;
         double risen = 0.0;

@@ -114,11 +114,24 @@ HWY_INLINE void add_stem_net(const StemPlan& plan, VF along, VF turn, const VF* 
     texel.shade = texel.shade * (one - set(0.08F) * strength * (one - thread));
 }
 
-/// Adds decurrent gills, whose height decreases downwards, like that of solid gills.
+/// Length of the shortest decurrent gill, in that of the longest.
+constexpr float shortest_stem_gill = 0.3F;
+
+/// Adds decurrent gills, whose height decreases downwards, like that of solid gills: each ends at its
+/// own place.
 HWY_INLINE void add_stem_gills(const StemPlan& plan, VF along, VF turn, Layers& texel) {
     const VF one = set(1.0F);
-    const VF up = smooth(along, 1.0F - plan.gills, 1.0F / plan.gills);
+    const float n = static_cast<float>(plan.layout.blades);
     const VF x = blades_at(plan.layout, turn, wander_at(plan.layout, turn, set(0.0F))).x;
+    const VF blade = hn::Floor(x);
+    const auto length_of = [&](VF number) {
+        const VF draw = set(0.5F) + set(0.5F) * signed_hash(wrapped(number, n), plan.seed[0]);
+        return set(shortest_stem_gill) + set(1.0F - shortest_stem_gill) * draw;
+    };
+    const VF between = x - blade, eased = between * between * (set(3.0F) - set(2.0F) * between);
+    const VF reach = set(plan.gills) * mix(length_of(blade), length_of(blade + one), eased);
+    const VF risen = unit((along - one + reach) / reach);
+    const VF up = risen * risen * (set(3.0F) - set(2.0F) * risen);
     const VF far = hn::Abs(x - hn::Floor(x + set(0.5F)));
     const VF deep =
         mix(set(0.45F), unit((far - set(plan.gill_half)) * set(1.0F / (0.5F - plan.gill_half))),
