@@ -80,6 +80,9 @@ constexpr std::array<Resolution, 5> resolutions = {
 constexpr std::array<Resolution, 5> fold_resolutions = {
     {{64, 24, 10, 100}, {48, 8, 6, 70}, {28, 6, 4, 75}, {12, 3, 4, 40}, {0, 3, 4, 8}}};
 
+/// Folds at the finest level that are no surplus: each has as many triangles as a gill.
+constexpr int sure_folds = 26;
+
 /// The largest factor on the width of a spine that stands for several.
 constexpr double most_wide = 2.5;
 
@@ -89,8 +92,11 @@ const Resolution& resolution_of(const SpineStyle& style, const Detail& detail) {
 
 /// Returns how many spines of a layer a level builds: the first ones of the sequence.
 int built(const SpineLayer& layer, const OrnamentDetail& detail) {
-    const double most = std::min(detail.offered(layer.style.count, sure_spines),
-                                 static_cast<double>(resolution_of(layer.style, detail).most));
+    const Resolution& resolution = resolution_of(layer.style, detail);
+    const bool is_fine = layer.style.is_folded() && &resolution == &fold_resolutions.front();
+    const double most =
+        std::min(detail.offered(layer.style.count, is_fine ? sure_folds : sure_spines),
+                 static_cast<double>(resolution.most));
     return static_cast<int>(std::floor(most * detail.free_solids + 0.5));
 }
 

@@ -474,9 +474,12 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
     RgbaImage image{params.width * columns, params.height * rows, {}};
     image.rgba.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height) * 4);
-    // Of what stands on the ground, most is above it.
+    // Of what stands on the ground, the greater part is above it: roots that reach far below are to be
+    // seen, a clod of soil is not.
+    constexpr float deepest_clod = 2.2F;  // in heights above the ground
     const bool has_ground = scene.stands_on_ground && params.view != View::below &&
-                            params.view != View::underside && list.box.min.y > -list.box.max.y;
+                            params.view != View::underside &&
+                            list.box.min.y > -deepest_clod * list.box.max.y;
     const std::vector<render::Camera> cameras =
         render::cameras_of(list, params, columns * rows, has_ground ? 0.0F : list.box.min.y);
     const SrgbTable& srgb = srgb_table();
