@@ -78,7 +78,7 @@ constexpr std::array<Resolution, 5> resolutions = {
     {{64, 3, 3, 6000}, {48, 3, 3, 1000}, {28, 2, 3, 570}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
 /// The same of upright folds.
 constexpr std::array<Resolution, 5> fold_resolutions = {
-    {{64, 24, 10, 100}, {48, 8, 6, 70}, {28, 6, 4, 75}, {12, 3, 4, 40}, {0, 3, 4, 8}}};
+    {{64, 24, 10, 100}, {48, 8, 6, 70}, {28, 6, 4, 75}, {12, 4, 4, 32}, {0, 4, 4, 8}}};
 
 /// Folds at the finest level that are no surplus: each has as many triangles as a gill.
 constexpr int sure_folds = 26;
@@ -226,7 +226,9 @@ double signed_power(double value, double exponent) {
 
 /// Builds one upright fold: rows of cross-sections along a winding line on the surface, from one end to
 /// the other; both ends lie in the body. Columns begin at the bottom.
-void build_fold(GridSolid& solid, const SpineRoot& root, double height, double width,
+///
+/// wider  how much thicker it is than others at the finest level; it is no longer and winds no more
+void build_fold(GridSolid& solid, const SpineRoot& root, double height, double width, double wider,
                 const SpineStyle& style, Random& random) {
     const double heading = random.uniform(0.0, 2.0 * pi), bow = random.symmetric();
     const double lean = random.symmetric();
@@ -271,7 +273,8 @@ void build_fold(GridSolid& solid, const SpineRoot& root, double height, double w
         const double rise = power(inside, fold_rise);
         const double top = height * rise * (1.0 - crest_waves * style.meander * wave) -
                            fold_end * sunk_depth * (1.0 - rise);
-        const double thick = 0.5 * width * std::max(power(inside, fold_taper), least_taper) *
+        const double thick = 0.5 * wider * width *
+                             std::max(power(inside, fold_taper), least_taper) *
                              (1.0 - crest_thin * style.meander * wave);
         const double over = sine_cosine(crest_phase + 2.0 * pi * (turns + 0.2) * u).sine;
         for (int j = 0; j <= solid.columns; ++j) {
@@ -374,7 +377,9 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detai
     const int count = built(layer, detail);
     if (count == 0) return;
     // Those that become shorter along the meridian lose the shortest ones, which nobody misses.
-    const double stands_for = std::sqrt(std::sqrt(static_cast<double>(style.count) / count));
+    const double all = std::sqrt(static_cast<double>(style.count) / count);
+    // Folds cover the body, however few they are.
+    const double stands_for = style.is_folded() ? all : std::sqrt(all);
     const double wider =
         1.0 + (1.0 - 0.5 * style.shortening) * (std::min(stands_for, most_wide) - 1.0);
     for (int k = 0; k < count; ++k) {
@@ -390,11 +395,11 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detai
         const double scale = layer.weight * root.grown;
         const double reach = 1.0 - style.shortening * root.along;
         const double length = scale * shorter * reach * style.length,
-                     width = scale * thinner * wider * style.width;
+                     width = scale * thinner * style.width;
         if (style.is_folded())
-            build_fold(solid, root, length, width, style, random);
+            build_fold(solid, root, length, width, wider, style, random);
         else
-            build_spine(solid, root, length, width, style, random);
+            build_spine(solid, root, length, scale * thinner * wider * style.width, style, random);
         append(mesh, solid, root.outwards, textured, is_present(layer) || keep_absent);
     }
 }
