@@ -21,7 +21,11 @@ constexpr double least_rise = 0.2, spanning_size = 0.3;
 
 /// Weights of the large tears of an edge, of the unequal heights of its lobes, of fine tears and of
 /// raggedness; their sum is 1.
-constexpr double tear_weight = 0.5, uneven_weight = 0.24, fine_weight = 0.16, ragged_weight = 0.1;
+constexpr double tear_weight = 0.48, uneven_weight = 0.28, fine_weight = 0.15, ragged_weight = 0.09;
+
+/// How much wider than a large tear its shoulders are, over which the lobes on either side slope down
+/// to it, and how deep they are, in depths of the tear.
+constexpr double shoulder_width = 3.4, shoulder_depth = 0.4;
 
 /// Depth at which a shell begins under the stem's surface: in radii of the stem, and at most in
 /// widths of the shell.
@@ -189,14 +193,14 @@ class Rents {
             const double at = (k + random.uniform(0.0, 0.95)) * apart;
             const double wide = random.uniform(), skew = random.uniform(0.15, 0.85),
                          deep = random.uniform(), bend = random.uniform(0.55, 2.2);
-            add({at, 0.0, 0.0, tear_weight * (0.25 + 0.75 * deep), bend},
+            add({at, 0.0, 0.0, tear_weight * (0.25 + 0.75 * deep), bend, true},
                 apart * (0.16 + 0.8 * wide * wide), skew, column);
         }
         for (int k = 0; k < counts.fine; ++k) {
             const double at = random.uniform(0.0, 2.0 * pi), wide = random.uniform(),
                          skew = random.uniform(0.1, 0.9), deep = random.uniform(),
                          bend = random.uniform(0.6, 1.8);
-            add({at, 0.0, 0.0, fine_weight * (0.1 + 0.9 * deep * deep), bend},
+            add({at, 0.0, 0.0, fine_weight * (0.1 + 0.9 * deep * deep), bend, false},
                 0.03 + 0.22 * wide * wide * wide, skew, column);
         }
     }
@@ -207,24 +211,28 @@ class Rents {
             const double away = 2.0 * pi * (turns - std::floor(turns + 0.5));
             const double half = away < 0.0 ? tear.before : tear.after;
             const double within = 1.0 - std::abs(away) / half;
-            if (within <= 0.0) continue;
             // Some tears are pointed, others are round at their ends.
-            const double depth = tear.depth * power(within, tear.bend);
-            (tear.depth > fine_weight ? rent : fine) =
-                std::max(tear.depth > fine_weight ? rent : fine, depth);
+            double depth = within > 0.0 ? tear.depth * power(within, tear.bend) : 0.0;
+            if (!tear.is_large) {
+                fine = std::max(fine, depth);
+                continue;
+            }
+            const double beside = std::max(1.0 - std::abs(away) / (shoulder_width * half), 0.0);
+            depth = (1.0 - shoulder_depth) * depth + shoulder_depth * tear.depth * beside * beside;
+            rent = std::max(rent, depth);
         }
         const double lobes = 0.5 + 0.28 * lobes_.at(angle) + 0.22 * crests_.at(angle);
         // Some stretches are frayed, others smooth.
         const double frayed = smooth_step(-0.5, 0.7, frayed_.at(angle));
         const double rags =
             0.5 + (0.1 + 0.2 * frayed) * rags_.at(angle) + 0.2 * frayed * fibrils_.at(angle);
-        return std::min(rent, tear_weight) + std::min(fine, fine_weight) + uneven_weight * lobes +
-               ragged_weight * rags;
+        return rent + fine + uneven_weight * lobes + ragged_weight * rags;
     }
 
   private:
     struct Tear {
         double at, before, after, depth, bend;
+        bool is_large;
     };
     void add(Tear tear, double width, double skew, double column) {
         tear.before = width * skew;
