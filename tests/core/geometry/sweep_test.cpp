@@ -388,9 +388,10 @@ TEST(Sweep, TangentsPointAlongTheTextureAndHandednessUpTheImage) {
             }
         }
         // The remaining ones are at corners of coarse triangles round poles, tips and torn edges,
-        // where the arms of a net meet, and on gills, whose rows of long thin triangles turn where they
+        // where the arms of a net meet, at the ends of a small cushion on a wall, and on gills, whose rows of long thin triangles turn where they
         // rise at the stem and end at the margin; most of these are on the oyster's, near its foot.
-        const bool netted = atlas().find(id)->species.stages.front().model.receptacle.meshes > 0;
+        const Model& young = atlas().find(id)->species.stages.front().model;
+        const bool netted = young.receptacle.meshes > 0 || young.spines.is_folded();
         EXPECT_GT(agree, (solids ? 0.88 : netted ? 0.94 : 0.97) * count) << id;
         EXPECT_GT(handed, 0.97 * count) << id;
     }
@@ -485,8 +486,11 @@ TEST(Sweep, AClubHasNoMarginToWave) {
 }
 
 TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {
-    const double allowed[] = {0.0, 0.03, 0.07, 0.14};
-    for (const std::string& id : swept_ids())
+    const double usual[] = {0.0, 0.03, 0.07, 0.14};
+    for (const std::string& id : swept_ids()) {
+        // Upright folds stand out by a third of the body, and coarse levels have few rows of each.
+        const bool folded = atlas().find(id)->species.stages.front().model.spines.is_folded();
+        const auto allowed = [&](int lod) { return (folded ? 1.6 : 1.0) * usual[lod]; };
         for (std::uint32_t seed = 1; seed <= 6; ++seed) {
             MushroomSpec order = order_of(id, seed / 6.0, seed);
             order.params.variation = 1.0;
@@ -496,12 +500,13 @@ TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {
                 order.params.lod = lod;
                 const Mesh mesh = mesh_of(order);
                 EXPECT_LT(distance(bounds(mesh), bounds(finest)),
-                          allowed[lod] * diagonal(bounds(finest)))
+                          allowed(lod) * diagonal(bounds(finest)))
                     << id << ", seed " << seed << ", lod " << lod;
                 EXPECT_LT(2 * mesh.triangles(), triangles);
                 triangles = mesh.triangles();
             }
         }
+    }
 }
 
 /// Returns the triangles of a mesh by their indices.
