@@ -527,21 +527,27 @@ void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& co
     const double sunk = std::min(shell_depth * profile.widest(), most_shell_depth * height);
     // A single band would cut through the bulb; at coarse levels only the wall is built.
     const double first = rings > 1 ? sac_begins : single_band_begins;
+    std::vector<double> torn, rolled;  // by column
+    for (int j = 0; j <= count; ++j) {
+        const double angle = -2.0 * pi * (j % count) / count;  // as for rings
+        torn.push_back(sac_tear * style.tear * rents.at(angle));
+        rolled.push_back(0.65 * lips.at(angle) + 0.35 * fine_lips.at(angle) - 0.25);
+    }
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
         const double share = static_cast<double>(outside ? i : solid.rows - 1 - i) / rings;
         for (int j = 0; j <= count; ++j) {
-            const double angle = -2.0 * pi * (j % count) / count;  // as for rings
-            const double up =
-                first + (1.0 - first) * share * (1.0 - sac_tear * style.tear * rents.at(angle));
+            const double angle = -2.0 * pi * (j % count) / count;
+            const auto column = static_cast<std::size_t>(j);
+            const double up = first + (1.0 - first) * share * (1.0 - torn[column]);
             const SacProfile::Point at = profile.at(up);
             // The wall thins towards its edge and is folded where it is loose; its lobes bend
             // outwards or inwards.
             const double half =
                 (outside ? 0.5 : -0.5) * thickness * (sac_at_base - sac_thinning * share);
-            const double lip = 0.65 * lips.at(angle) + 0.35 * fine_lips.at(angle) - 0.25;
-            const double loose = at.clear * (sac_fold * folds.at(angle, up) - sac_bend * at.above +
-                                             sac_lip * lip * smooth_step(lip_begins, 1.0, share));
+            const double loose =
+                at.clear * (sac_fold * folds.at(angle, up) - sac_bend * at.above +
+                            sac_lip * rolled[column] * smooth_step(lip_begins, 1.0, share));
             const double rise =
                 (sunk + sac_distance * thickness) * smooth_step(0.0, sac_emerges, share) - sunk;
             const double off = half + rise + std::max(loose, -most_sac_bend * at.clear);
