@@ -169,8 +169,9 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
     for (int i = 0; i < solid.rows; ++i) {
         const double row = static_cast<double>(i) / (solid.rows - 1);
         const double up = row * (1.0 - skirt_power * skirt * (1.0 - row));
-        const double narrowing = (1.0 - up) * (1.0 + up * (bulge - (bulge + spine_hollow) * pointed)) +
-                                 (i == 0 ? skirt_width * skirt : 0.0);
+        const double narrowing =
+            (1.0 - up) * (1.0 + up * (bulge - (bulge + spine_hollow) * pointed)) +
+            (i == 0 ? skirt_width * skirt : 0.0);
         const double risen = up * (1.0 + crumbled * crumb_top * (1.0 - up));
         const double crumb = i > 0 && i + 1 < solid.rows ? crumbled : 0.0;
         const std::size_t ring = static_cast<std::size_t>(up * crumb_rings * 0.999);

@@ -75,28 +75,28 @@ struct Resolution {
     int least_columns, rows, sides, most;
 };
 constexpr std::array<Resolution, 5> resolutions = {
-    {{64, 3, 3, 6000}, {48, 3, 3, 1000}, {28, 2, 3, 570}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
-/// The same of upright folds.
-constexpr std::array<Resolution, 5> fold_resolutions = {
-    {{64, 24, 10, 100}, {48, 8, 6, 70}, {28, 6, 4, 75}, {12, 4, 4, 32}, {0, 4, 4, 8}}};
-
-/// Folds at the finest level that are no surplus: each has as many triangles as a gill.
-constexpr int sure_folds = 26;
+    {{64, 3, 3, 6000}, {48, 3, 3, 1000}, {28, 2, 3, 640}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
+/// The same of upright folds, of which each is a part of the outline.
+constexpr std::array<Resolution, 6> fold_resolutions = {{{90, 18, 8, 60},
+                                                         {60, 14, 8, 60},
+                                                         {48, 12, 6, 60},
+                                                         {28, 9, 5, 50},
+                                                         {12, 5, 3, 50},
+                                                         {0, 4, 3, 8}}};
 
 /// The largest factor on the width of a spine that stands for several.
 constexpr double most_wide = 2.5;
 
 const Resolution& resolution_of(const SpineStyle& style, const Detail& detail) {
-    return by_columns(style.is_folded() ? fold_resolutions : resolutions, detail);
+    return style.is_folded() ? by_columns(fold_resolutions, detail)
+                             : by_columns(resolutions, detail);
 }
 
 /// Returns how many spines of a layer a level builds: the first ones of the sequence.
 int built(const SpineLayer& layer, const OrnamentDetail& detail) {
     const Resolution& resolution = resolution_of(layer.style, detail);
-    const bool is_fine = layer.style.is_folded() && &resolution == &fold_resolutions.front();
-    const double most =
-        std::min(detail.offered(layer.style.count, is_fine ? sure_folds : sure_spines),
-                 static_cast<double>(resolution.most));
+    const double most = std::min(detail.offered(layer.style.count, sure_spines),
+                                 static_cast<double>(resolution.most));
     return static_cast<int>(std::floor(most * detail.free_solids + 0.5));
 }
 
@@ -282,8 +282,8 @@ void build_fold(GridSolid& solid, const SpineRoot& root, double height, double w
             const double up = 0.5 - 0.5 * signed_power(round.cosine, fold_section);
             const double aside = thick * signed_power(round.sine, fold_section);
             const double crest =
-                up * up *
-                (style.meander * crest_aside * width * over + fold_lean * lean * height * rise);
+                up * up * rise *
+                (style.meander * crest_aside * width * over + fold_lean * lean * height);
             solid.corners.push_back(centre + (up * (top + sunk_depth) - sunk_depth) * out +
                                     (aside + crest) * left);
         }
@@ -379,7 +379,7 @@ void add_spines(Mesh& mesh, const SpineLayer& layer, const OrnamentDetail& detai
     // Those that become shorter along the meridian lose the shortest ones, which nobody misses.
     const double all = std::sqrt(static_cast<double>(style.count) / count);
     // Folds cover the body, however few they are.
-    const double stands_for = style.is_folded() ? all : std::sqrt(all);
+    const double stands_for = style.is_folded() ? all : power(all, 0.9);
     const double wider =
         1.0 + (1.0 - 0.5 * style.shortening) * (std::min(stands_for, most_wide) - 1.0);
     for (int k = 0; k < count; ++k) {

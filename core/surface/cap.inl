@@ -255,8 +255,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     texel.shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
                   set(0.10F) * fine;
     texel.occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
-    texel.roughness =
-        set(plan.roughness) + fine * set(0.05F) + mottle * set(0.07F) + middle * set(0.05F);
+    texel.roughness = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
     if (plan.patches > 0.0F) {
         // The border breaks up into points, and the patch is thinner in places.
         const VF patch =
