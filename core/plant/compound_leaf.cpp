@@ -20,6 +20,12 @@ constexpr double foot_radius = 0.011, root_radius = 0.008, tip_radius = 0.002;
 // Bend of a leaflet in that of the axis.
 constexpr double leaflet_curl = 0.4;
 
+// How far the tip of a leaflet is swept towards that of the axis, in its lengths.
+constexpr double sweep = 0.12;
+
+// Edges of the border of a leaflet from one of its corners to the next at LOD 0, finest first.
+constexpr std::array<int, 4> leaflet_steps = {4, 3, 2, 1};
+
 // By level of detail: sides of the axis, and its rings along petiole and leaflets.
 struct AxisLevel {
     std::uint32_t sides, petiole_rings, rings;
@@ -73,9 +79,9 @@ void add_axis(const LeafShape& shape, const Bending& bent, int lod, Shell& shell
         shell.triangles.push_back({rim[(k + 1) % sides], rim[k], middle});
 }
 
-// Returns the area of the polygon that leaflets are at LOD 0.
-double polygon_area(const LeafShape& leaflet) {
-    const std::vector<glm::dvec2> border = border_of(lamina_of(leaflet.venation, 1));
+// Returns the area of a leaflet with its smooth border.
+double smooth_area(const LeafShape& leaflet) {
+    const std::vector<glm::dvec2> border = border_of(lamina_of(leaflet.venation, 3));
     double twice = 0.0;
     for (std::size_t i = 0; i < border.size(); ++i) {
         const glm::dvec2 a = border[i], b = border[(i + 1) % border.size()];
@@ -84,9 +90,9 @@ double polygon_area(const LeafShape& leaflet) {
     return 0.5 * twice;
 }
 
-// Returns a leaflet of length 1 as a flat kite from its root to its tip, of the area of its polygon.
+// Returns a leaflet of length 1 as a flat kite from its root to its tip, of the area of its lamina.
 Shell kite_of(const LeafShape& leaflet) {
-    const double half = polygon_area(leaflet);
+    const double half = smooth_area(leaflet);
     const std::array<glm::dvec2, 4> corners = {glm::dvec2(0.0), glm::dvec2(half, 0.45),
                                                glm::dvec2(0.0, 1.0), glm::dvec2(-half, 0.45)};
     const LeafChart chart = chart_of(lamina_of(leaflet.venation, leaf_steps(leaflet.venation, 0)));
@@ -104,11 +110,15 @@ Shell leaflet_shell(const LeafShape& compound, int lod) {
     if (lod >= 2) return kite_of(leaflet);
     const Bending bent(leaflet);
     const std::size_t fan = lod == 0 ? most_foliage_triangles : most_foliage_triangles / 2;
-    Shell polygon = lamina_shell(leaflet, bent, 2, 0);
-    const std::uint64_t most = lod == 0 ? most_leaflet_triangles : 0;
-    if (polygon.triangles.size() <= fan ||
-        polygon.triangles.size() * static_cast<std::uint64_t>(compound.leaflets.count) <= most)
-        return polygon;
+    if (lod == 0)
+        for (const int steps : leaflet_steps) {
+            Shell drawn = coarse_lamina_shell(leaflet, bent, steps);
+            if (drawn.triangles.size() * static_cast<std::uint64_t>(compound.leaflets.count) <=
+                most_leaflet_triangles)
+                return drawn;
+        }
+    Shell polygon = coarse_lamina_shell(leaflet, bent, 1);
+    if (polygon.triangles.size() <= fan) return polygon;
     return foliage_shell(leaflet, bent, fan, Preserved::area);
 }
 
@@ -137,7 +147,10 @@ Shell compound_shell(const LeafShape& shape, int lod) {
         const glm::dvec3 root = bent.at({0.0, one.at}, 0.0), up(0.0, turn.cosine, turn.sine),
                          on(0.0, -turn.sine, turn.cosine);
         for (std::size_t i = 0; i < leaflet.places.size(); ++i) {
-            const glm::dvec3 place = one.place(leaflet.places[i]);
+            glm::dvec3 place = one.place(leaflet.places[i]);
+            // All but the last, which goes on along the axis.
+            const double out = leaflet.places[i].z * std::sqrt(std::max(0.0, 1.0 - one.along.z));
+            place.z += sweep * one.size * out * out;
             shell.add(root + glm::dvec3(place.x, 0.0, 0.0) + place.y * up + (place.z - one.at) * on,
                       glm::dvec2(leaflet.texture[i]));
         }

@@ -106,6 +106,8 @@ class LaminaMesher {
             const double share = line.at[i] / one.reach;
             vertex.groove = 1.0 - share;
             vertex.rib = 1.0 - 0.9 * share;
+            for (std::size_t side = 0; side < 2; ++side)
+                vertex.breadth += 0.5 * half_breadth(one, side, line.at[i]);
             vertex.rim = i + 1 == line.at.size();
             line.vertices.push_back(i == 0 ? root_ : add(vertex));
         }
@@ -128,10 +130,16 @@ class LaminaMesher {
             LaminaVertex vertex;
             vertex.place = line.at[i] * glm::dvec2(-ray.sine, ray.cosine);
             vertex.affinity = 1.0;
+            vertex.breadth = line.at[i];
             vertex.rim = i + 1 == line.at.size();
             line.vertices.push_back(i == 0 ? root_ : add(vertex));
         }
         return line;
+    }
+
+    // Returns the distance of the border from the main vein on the line of an abscissa.
+    static double half_breadth(const Lobe& lobe, std::size_t side, double abscissa) {
+        return lobe.halves[side].height(abscissa) * sine_cosine(lobe.angle(side, abscissa)).sine;
     }
 
     static double distance(const Lobe& lobe, std::size_t side, double abscissa) {
@@ -185,6 +193,8 @@ class LaminaMesher {
                 vertex.place = one.place(side, abscissas[i], rows_[k] * half.height(abscissas[i]));
                 vertex.affinity = rows_[k];
                 vertex.rim = k + 1 == rows;
+                vertex.breadth =
+                    half_breadth(one, side, abscissas[i]) * std::sqrt(1.0 - rows_[k] * rows_[k]);
                 relief(half, abscissas[i], rows_[k] * half.height(abscissas[i]), vertex);
                 grid[i].push_back(add(vertex));
             }
@@ -242,7 +252,7 @@ class LaminaMesher {
         const double fade = 1.0 - vertex.affinity * vertex.affinity;
         double nearest = 1e9, gap = 1.0, length = 0.0;
         for (std::size_t i = 0; i < veins.size(); ++i) {
-            const double away = std::abs(abscissa - veins[i].abscissa);
+            const double away = std::abs(abscissa - veins[i].line(height));
             if (away >= nearest) continue;
             nearest = away;
             length = veins[i].length;
@@ -253,9 +263,10 @@ class LaminaMesher {
         }
         const double from_vein = std::min(nearest / (0.5 * std::max(gap, 1e-9)), 1.0);
         vertex.swell = from_vein * fade * std::min(1.0, 4.0 * vertex.affinity);
-        if (from_vein < 0.05 && height < length) {
-            vertex.groove = 0.6 * fade;
-            vertex.rib = 0.5 * fade;
+        const double on_vein = std::max(0.0, 1.0 - 6.0 * from_vein);
+        if (on_vein > 0.0 && height < length) {
+            vertex.groove = 0.6 * fade * on_vein;
+            vertex.rib = 0.5 * fade * on_vein;
         }
     }
 

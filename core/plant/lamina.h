@@ -16,9 +16,10 @@ struct LaminaVertex {
     glm::dvec2 place{0.0};
     double affinity = 0.0;
     bool rim = false;
-    double groove = 0.0;  ///< 0..1: depth of a vein in the upper face
-    double rib = 0.0;     ///< 0..1: height of the vein on the lower face
-    double swell = 0.0;   ///< 0..1: height of the lamina between veins
+    double groove = 0.0;   ///< 0..1: depth of a vein in the upper face
+    double rib = 0.0;      ///< 0..1: height of the vein on the lower face
+    double swell = 0.0;    ///< 0..1: height of the lamina between veins
+    double breadth = 0.0;  ///< half the breadth of the half here, which limits how thick it is
 };
 
 /// The lamina as triangles.

@@ -22,6 +22,7 @@ namespace sporeprint {
 namespace {
 
 constexpr double petiole_radius = 0.011, petiole_reach = 0.12;  // in lengths of the lamina
+constexpr double thickest = 0.9;  // half the thickness of a lamina, at most, in its half breadth
 constexpr double bow_variation = 0.05;  // of individuals, as a standard deviation
 constexpr double faces_height = 0.9;    // of the image, above the petiole's strip
 
@@ -49,9 +50,9 @@ Level level_of(const Venation& venation, int lod) {
         corners += (j == 0 ? 2 : 4) * (venation.sinus > 0.0 ? 2 : 1) * nodes;
     }
     if (lod == 0) {
-        if (corners <= 30) return {6, {0.0, 0.12, 0.55, 1.0}, 2, 6, 5};
-        if (corners <= 60) return {3, {0.0, 0.15, 0.6, 1.0}, 1, 6, 5};
-        if (corners <= 80) return {3, {0.0, 0.3, 1.0}, 1, 6, 5};
+        if (corners <= 30) return {8, {0.0, 0.12, 0.55, 1.0}, 2, 8, 7};
+        if (corners <= 60) return {6, {0.0, 0.15, 0.6, 1.0}, 1, 8, 7};
+        if (corners <= 80) return {6, {0.0, 0.3, 1.0}, 1, 8, 7};
         return {2, {0.0, 0.3, 1.0}, 1, 6, 5};
     }
     if (lod == 1) {
@@ -99,7 +100,9 @@ namespace {
 void add_petiole(const LeafShape& shape, const Bending& bent, const Level& level, Shell& shell) {
     const auto sides = static_cast<std::size_t>(level.petiole_sides);
     const auto rings = static_cast<std::size_t>(level.petiole_rings);
-    const double deep = std::max(0.5 * shape.thickness, 0.4 * petiole_radius);
+    // However thick the lamina is in its middle, it is thin at its root, where the petiole meets it.
+    const double deep =
+        std::clamp(0.5 * shape.thickness, 0.4 * petiole_radius, 0.5 * petiole_radius);
     const auto texture = [&](double along, double round) {
         return glm::dvec2(0.01 + 0.98 * along,
                           petiole_strip + 0.01 + (0.98 - petiole_strip) * round);
@@ -185,14 +188,9 @@ void cut_out_spots(LaminaMesh& lamina, const std::vector<EatenSpot>& spots, int 
     }
 }
 
-}  // namespace
-
-Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod, std::uint32_t seed) {
-    const Level level = level_of(shape.venation, lod);
-    const Lamina lamina = lamina_of(shape.venation, level.steps);
-    const LeafChart chart = chart_of(lamina);
-    LaminaMesh flat = lamina_mesh(lamina, level.rows, level.fill);
-    if (lod < open_lods) cut_out_spots(flat, spots_of(shape, seed), lod);
+/// Returns both faces of a flat lamina, bent and with its thickness.
+Shell faces_shell(const LeafShape& shape, const Bending& bent, const LaminaMesh& flat) {
+    const LeafChart chart = chart_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)));
     Shell shell;
     const auto count = static_cast<std::uint32_t>(flat.vertices.size());
     for (const bool upper : {true, false})
@@ -200,8 +198,8 @@ Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod, std::ui
             double lift = 0.0;
             if (!vertex.rim && &vertex != flat.vertices.data()) {
                 lift = shape.relief * (0.012 * vertex.swell - 0.008 * vertex.groove);
-                lift += upper ? 0.5 * shape.thickness
-                              : -0.5 * shape.thickness - shape.relief * 0.012 * vertex.rib;
+                const double half = std::min(0.5 * shape.thickness, thickest * vertex.breadth);
+                lift += upper ? half : -half - shape.relief * 0.012 * vertex.rib;
             }
             shell.add(bent.at(vertex.place, lift), chart.texture_point(vertex.place, upper));
         }
@@ -209,6 +207,20 @@ Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod, std::ui
     for (const auto& t : flat.triangles)
         shell.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
     return shell;
+}
+
+}  // namespace
+
+Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod, std::uint32_t seed) {
+    const Level level = level_of(shape.venation, lod);
+    const Lamina lamina = lamina_of(shape.venation, level.steps);
+    LaminaMesh flat = lamina_mesh(lamina, level.rows, level.fill);
+    if (lod < open_lods) cut_out_spots(flat, spots_of(shape, seed), lod);
+    return faces_shell(shape, bent, flat);
+}
+
+Shell coarse_lamina_shell(const LeafShape& shape, const Bending& bent, int steps) {
+    return faces_shell(shape, bent, lamina_mesh(lamina_of(shape.venation, steps), {0.0, 1.0}, 0));
 }
 
 namespace {
@@ -289,9 +301,10 @@ LeafCount most_of_leaf(const LeafShape& shape, int lod) {
     const std::uint64_t between =
         (venation.sinus > 0.0 ? 2 : 1) * std::max<std::uint64_t>(nodes, 2);
     const bool toothed = level.steps > 1 && venation.teeth > 0.0;
-    const int places = std::max(level.steps, toothed ? 2 * venation.teeth_per_vein : 0);
+    const int places =
+        std::max(level.steps, toothed ? tooth_edges(level.steps) * venation.teeth_per_vein : 0);
     const std::uint64_t abscissas =
-        between * static_cast<std::uint64_t>(places) + 6 + level.fill * (nodes + 1);
+        between * static_cast<std::uint64_t>(places) + 10 + level.fill * (nodes + 1);
     const std::uint64_t rows = level.rows.size();
     // Both halves of a lobe share their main vein, neighbours the ray between them; either line has
     // the abscissas of both sides.

@@ -141,10 +141,11 @@ inline constexpr int leaf_lods = 4;
 /// Returns the whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face
 /// up.
 ///
-/// lod      0: about 2,000 triangles, and up to 240 for each place that is eaten; 1: about 500; 2: the
+/// lod      0: up to 5,000 triangles, and up to 240 for each place that is eaten; 1: about 500; 2: the
 ///          polygon of the source; 3: a fan of most_foliage_triangles of the same length and width, or
-///          the polygon if it has no more triangles. Of a compound leaf each leaflet is 0: the polygon, if all have no more than
-///          most_leaflet_triangles together; 1: a fan; 2 and 3: a kite
+///          the polygon if it has no more triangles. Of a compound leaf each leaflet is 0: a lamina
+///          with as smooth a border as most_leaflet_triangles for all allow; 1: a fan; 2 and 3: a
+///          kite
 /// size     scale of the whole
 /// seed     determines where the leaf is eaten
 /// returns  closed pieces: the lamina, with its veins as relief, and the petiole; or the axis and
@@ -158,7 +159,7 @@ struct LeafCount {
 };
 
 /// The largest number of triangles of all leaflets of a leaf at LOD 0, unless fans have more.
-inline constexpr std::uint64_t most_leaflet_triangles = 6'000;
+inline constexpr std::uint64_t most_leaflet_triangles = 20'000;
 
 /// Returns upper bounds of the counts of leaf_mesh(), in nanoseconds; up to six times the actual
 /// counts where few corners are divided among many lobes. Of a compound leaf they are the counts

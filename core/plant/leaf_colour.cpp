@@ -23,16 +23,16 @@ glm::dvec3 mixed(const glm::dvec3& a, const glm::dvec3& b, double share) {
     return a + share * (b - a);
 }
 
-// Returns 1 on a vein, 0 beside it. Main veins taper to the tip, side veins are half as wide and
-// end within the lamina.
+// Returns 1 on a vein, 0 beside it. Main veins taper to the tip, side veins are half as wide, taper
+// and fade slowly towards the border.
 double vein_share(const LeafColours& colours, const LaminaPlace& place) {
     const auto line = [](double distance, double width) {
         return width > 0.0 ? 1.0 - smooth_step(0.25 * width, 0.5 * width, distance) : 0.0;
     };
-    const double main = line(place.from_main, colours.vein_width * (1.0 - 0.88 * place.homothety));
+    const double main = line(place.from_main, colours.vein_width * (1.0 - 0.8 * place.homothety));
     const double side = line(place.from_side, 0.5 * colours.vein_width *
-                                                  std::max(0.0, 1.0 - 0.85 * place.along_side)) *
-                        (1.0 - smooth_step(0.8, 1.05, place.along_side));
+                                                  std::max(0.0, 1.0 - 0.6 * place.along_side)) *
+                        (1.0 - smooth_step(0.45, 1.1, place.along_side));
     return std::max(main, 0.62 * side);
 }
 

@@ -94,7 +94,7 @@ class Cutter {
         const auto mix = [t](const auto& from, const auto& to) { return from + t * (to - from); };
         lamina_.vertices.push_back({mix(a.place, b.place), mix(a.affinity, b.affinity), false,
                                     mix(a.groove, b.groove), mix(a.rib, b.rib),
-                                    mix(a.swell, b.swell)});
+                                    mix(a.swell, b.swell), mix(a.breadth, b.breadth)});
         return static_cast<std::uint32_t>(lamina_.vertices.size() - 1);
     }
 

@@ -25,6 +25,9 @@ const glm::dvec3 dry(0.15, 0.085, 0.035), rim(0.36, 0.34, 0.1);
 const glm::dvec3 bitten(0.11, 0.055, 0.02), behind(0.035, 0.026, 0.015);
 constexpr double bitten_width = 0.009, halo_width = 0.022;
 
+// Linear colour of the wax in pores of needles.
+const glm::dvec3 pore_wax(0.42, 0.5, 0.46);
+
 constexpr int finest_row = 512;  // points per row that resolve the veins of a leaf
 
 // Returns a table of sRGB bytes for linear light in 4096 steps: finer than bytes, except for the
@@ -39,6 +42,22 @@ const std::array<std::uint8_t, 4097>& encoded_table() {
     return table;
 }
 
+// How far noise bends veins, in lengths of the lamina; no source or measurement is recorded for this
+// and for what follows.
+constexpr double vein_wander = 0.006, net_wander = 0.012;
+
+// Shades of the lamina beside veins, and how far from them these reach; how far the tint of blotches
+// departs from green to yellow, and that of the border to yellow.
+constexpr double beside_main = 0.16, beside_side = 0.12, main_reach = 0.05, side_reach = 0.022;
+const glm::dvec3 blotch_tint(0.2, 0.07, -0.12), border_tint(0.16, 0.05, -0.06);
+
+// Laminae whose half breadth is a smaller share of their length than the first are needles, those
+// from the second on have broad blades; rows of pores of a needle per half breadth.
+constexpr double needle_breadth = 0.03, blade_breadth = 0.07, pore_rows = 12.0;
+
+// Returns the distance from the nearest integer.
+double from_line(double x) { return std::abs(x - std::floor(x + 0.5)); }
+
 // Returns 1 on a line, 0 beside it, with a smooth profile between.
 double line_profile(double distance, double width) {
     return distance < width ? 1.0 - smooth_step(0.0, width, distance) : 0.0;
@@ -47,36 +66,79 @@ double line_profile(double distance, double width) {
 // Returns the depth of a vein at a place, 0..1.
 double vein_depth(const LaminaPlace& place) {
     const double main = line_profile(place.from_main, 0.028 * (1.0 - 0.7 * place.homothety));
-    double side = line_profile(place.from_side, 0.014);
-    if (side > 0.0) side *= 1.0 - smooth_step(0.7, 1.1, place.along_side);
+    double side =
+        line_profile(place.from_side, 0.014 * (1.0 - 0.5 * std::min(place.along_side, 1.0)));
+    if (side > 0.0) side *= 1.0 - smooth_step(0.5, 1.1, place.along_side);
     return std::max(main, 0.6 * side);
 }
 
-// Veins of third order from the root to the tip, the share of their distance that each fills, and how
-// far noise bends them; the same of the net between them, which is as much fainter.
-constexpr double rungs = 20.0, rung_width = 0.07, rung_bend = 0.45;
-constexpr double meshes = 62.0, mesh_width = 0.17, mesh_bend = 0.55, mesh_share = 0.5;
+// The two networks of finer veins: cells per length of the lamina along its main vein and along its
+// side veins, and widths of their walls. Veins of third order join side veins, so their cells are
+// longer along the main vein; the net between them is as much fainter.
+struct Network {
+    double along, up, width, share;
+    std::uint32_t salt;
+};
+constexpr Network ladder = {11.0, 23.0, 0.09, 1.0, 17};
+constexpr Network meshes = {52.0, 60.0, 0.2, 0.5, 71};
 
-double fraction(double x) { return x - std::floor(x); }
+// Returns the middle of a cell, which lies anywhere in the inner parts of its square.
+glm::dvec2 cell_middle(int x, int y, std::uint32_t salt) {
+    std::uint32_t mixed = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
+                          static_cast<std::uint32_t>(y) * 0x85EBCA77U ^ salt * 0xC2B2AE3DU;
+    mixed ^= mixed >> 15U;
+    mixed *= 0x2C1B3C6DU;
+    mixed ^= mixed >> 12U;
+    mixed *= 0x297A2D39U;
+    mixed ^= mixed >> 15U;
+    constexpr double inset = 0.12, scale = (1.0 - 2.0 * inset) / 65535.0;
+    return {x + inset + scale * (mixed & 0xFFFFU), y + inset + scale * (mixed >> 16U)};
+}
 
-// Returns the distance from the nearest integer.
-double from_line(double x) { return std::abs(x - std::floor(x + 0.5)); }
-
-// Returns how far a vein of third order or the net is at a place, 0..1: rungs from side vein to side
-// vein, which begin elsewhere in each field between two of them, and meshes like bricks.
+// Returns the distance from the nearest wall between two cells, in cells.
 //
-// field  a number of the field
-double net_at(const LaminaPlace& place, double field, double blotch, double cell) {
+// source  [Worley1996], with the distance from the line half-way between the two nearest points
+double from_wall(const Network& net, double abscissa, double height, std::uint32_t seed) {
+    const glm::dvec2 at(net.along * abscissa, net.up * height);
+    const auto x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+    glm::dvec2 nearest(0.0), second(0.0);
+    double least = 1e9, next = 1e9;
+    for (int i = -1; i <= 1; ++i)
+        for (int k = -1; k <= 1; ++k) {
+            const glm::dvec2 away = cell_middle(x + i, y + k, net.salt + seed) - at;
+            const double square = glm::dot(away, away);
+            if (square < least) {
+                next = least;
+                second = nearest;
+                least = square;
+                nearest = away;
+            } else if (square < next) {
+                next = square;
+                second = away;
+            }
+        }
+    return 0.5 * (next - least) / std::max(glm::length(second - nearest), 1e-6);
+}
+
+// Returns how far a vein of third order or the net is at a place, 0..1. Both halves have their own.
+double net_at(const LaminaPlace& place, double bend) {
     if (place.affinity >= 1.0) return 0.0;
-    constexpr double golden = 0.6180339887498949;
-    const double rung = line_profile(
-        from_line(rungs * place.height + golden * field + rung_bend * cell + 0.8 * blotch),
-        rung_width);
-    const double row = meshes * place.height + mesh_bend * cell;
-    const double column =
-        meshes * place.abscissa + golden * std::floor(row) + mesh_bend * fraction(3.0 * blotch);
-    const double mesh = line_profile(std::min(from_line(row), from_line(column)), mesh_width);
-    return std::max(rung, mesh_share * mesh) * (1.0 - smooth_step(0.92, 1.0, place.affinity));
+    const auto half = static_cast<std::uint32_t>(2 * place.lobe + place.side);
+    const double height = place.height + bend, abscissa = place.abscissa - 0.15 * place.height;
+    const double rung =
+        line_profile(from_wall(ladder, abscissa, height, 97 * half), ladder.width) * ladder.share;
+    const double mesh =
+        line_profile(from_wall(meshes, abscissa, height, 97 * half), meshes.width) * meshes.share;
+    return std::max(rung, mesh) * (1.0 - smooth_step(0.92, 1.0, place.affinity));
+}
+
+// Returns how far a place belongs to the bands of pores on either side of a needle's main vein, 0..1:
+// rows of pores along the needle.
+double pores_at(const LaminaPlace& place, double cell) {
+    const double band =
+        smooth_step(0.14, 0.24, place.affinity) * (1.0 - smooth_step(0.62, 0.74, place.affinity));
+    const double row = from_line(pore_rows * place.affinity);
+    return band * (0.45 + (0.55 + 0.5 * cell) * line_profile(row, 0.32));
 }
 
 // Returns how far a dry mark covers a place, 0..1: where blotches are high, with ragged borders. Below
@@ -89,6 +151,13 @@ double mark_at(double marks, double blotch, double cell) {
 
 // The coordinates of a place beyond the border.
 constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
+
+// Returns half the breadth of a lamina, in its lengths.
+double half_breadth(const Lamina& lamina) {
+    double half = 0.0;
+    for (const glm::dvec2& place : border_of(lamina)) half = std::max(half, std::abs(place.x));
+    return half;
+}
 
 struct Texel {
     glm::dvec3 light{0.0};
@@ -113,6 +182,7 @@ class LeafPainter {
           relief_(shape.relief),
           net_(shape.venation.net),
           marks_(palette.marks),
+          broad_(smooth_step(needle_breadth, blade_breadth, half_breadth(sampler_.lamina()))),
           eaten_(spots_of(shape, seed)),
           seed_(seed),
           count_(side),
@@ -350,12 +420,28 @@ class LeafPainter {
                    double& height) const {
         const auto blotch = static_cast<double>(line.spots[point - line.from]);
         const auto cell = static_cast<double>(line.cells[point - line.from]);
-        LaminaPlace place = sampler_.at({columns_[point], line.y}, line.hint);
+        // Veins wander, and differently on both halves.
+        LaminaPlace place = sampler_.at({columns_[point] + 0.5 * vein_wander * broad_ * blotch,
+                                         line.y + vein_wander * broad_ * blotch},
+                                        line.hint);
         const double depth = vein_depth(place);
-        const auto field = static_cast<double>(line.hint.vein + 7 * line.hint.half);
-        if (net_ > 0.0) place.net = net_ * net_at(place, field, blotch, cell);
+        if (net_ > 0.0) place.net = net_ * net_at(place, net_wander * blotch + 0.002 * cell);
         const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
         LeafColourMap::Faces faces = colour_map_.at(place, own);
+        const double yellow = 0.6 * blotch, rim_yellow = smooth_step(0.6, 1.0, place.affinity);
+        const double beside =
+            beside_main * line_profile(place.from_main, main_reach) * (1.0 - place.homothety) +
+            beside_side * line_profile(place.from_side, side_reach);
+        const glm::dvec3 tint =
+            (1.0 - broad_ * beside * (1.0 - depth)) *
+            (1.0 + broad_ * (1.0 - autumn_) * (yellow * blotch_tint + rim_yellow * border_tint));
+        faces.upper *= tint;
+        faces.lower *= tint;
+        if (broad_ < 1.0) {
+            const double pores = (1.0 - broad_) * (1.0 - autumn_) * pores_at(place, cell);
+            faces.lower += 0.75 * pores * (pore_wax - faces.lower);
+            faces.upper += 0.12 * pores * (pore_wax - faces.upper);
+        }
         const double mark = mark_at(marks_, blotch, cell);
         for (glm::dvec3* face : {&faces.upper, &faces.lower})
             *face +=
@@ -377,7 +463,8 @@ class LeafPainter {
         }
         const double shade = share_ * (1.0 + 0.16 * blotch + 0.1 * cell);
         const double rough = 0.08 * cell + 0.2 * autumn_;
-        upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.5 + rough);
+        const double gloss = 0.1 * blotch - 0.06 * depth + 0.05 * place.net;
+        upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.48 + gloss + rough);
         lower.add(share_, shade * faces.lower, 1.0, 0.75 + rough);
         height -= share_ * relief_ * (0.006 * depth + 0.0011 * place.net - 0.0006 * cell);
     }
@@ -394,6 +481,7 @@ class LeafPainter {
     LeafColourMap colour_map_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
     double autumn_, relief_, net_, marks_;
+    double broad_;  // 0 for a needle, 1 for a blade
     std::vector<EatenSpot> eaten_;
     std::uint32_t seed_;
     std::size_t count_;   // texels in a row

@@ -77,6 +77,11 @@ struct Shell {
 [[nodiscard]] Shell lamina_shell(const LeafShape& shape, const Bending& bent, int lod,
                                  std::uint32_t seed);
 
+/// Returns both faces of a simple leaf without vertices between its main veins and its border.
+///
+/// steps  of lamina_of()
+[[nodiscard]] Shell coarse_lamina_shell(const LeafShape& shape, const Bending& bent, int steps);
+
 /// Returns the leaflets of a compound leaf and its axis at a level of detail, the root of the axis at
 /// the origin.
 [[nodiscard]] Shell compound_shell(const LeafShape& shape, int lod);

@@ -12,7 +12,7 @@ namespace sporeprint {
 
 namespace {
 
-// No source or measurement is recorded for these values down to `tooth_tip`.
+// No source or measurement is recorded for these values down to `arch_spread`.
 constexpr double most_turn_deg = 165.0;                // angle of the outermost main vein
 constexpr double behind_deg = 177.0, clear_deg = 3.0;  // minimum distance to the petiole's line
 constexpr double least_reach_deg = 5.0;    // least angle of side veins to the ray to the neighbour
@@ -34,6 +34,24 @@ constexpr double tip_tangent_y = 1.2, tip_tangent_x = 0.2;
 // Position of the tip of a tooth in its two steps: beyond the middle, so that a tooth leans to the
 // tip of the lobe, rises slowly and falls steeply.
 constexpr double tooth_tip = 1.55;
+
+// The points of finely drawn teeth between their ends and tips: on the back as a share of it, on the
+// front likewise, and their heights in that of the tip.
+constexpr double tooth_back = 0.45, tooth_back_lift = 0.66;
+constexpr double tooth_front = 0.45, tooth_front_lift = 0.3;
+
+// How much longer the tangents of blunt ends of veins are than those of bays.
+constexpr double blunt_breadth = 0.5;
+
+// For asymmetry 1: how much narrower the angle between two main veins and how much shorter a side lobe
+// may be, and how much the halves differ in breadth.
+constexpr double turn_spread = 0.14, lobe_spread = 0.14, half_spread = 0.05;
+
+// Length below which side veins fade: needles show their main vein alone.
+constexpr double least_vein = 0.1;
+
+// How much less the flattest side veins arch than the most curved ones.
+constexpr double arch_spread = 0.7;
 
 // For unevenness 1: how much shorter the shortest tooth is than the longest, and how far side veins
 // differ from their mean length.
@@ -129,28 +147,34 @@ std::vector<BorderPoint> border_curve(const Venation& venation, const Lobe& lobe
             } else {
                 turned = 0.5 * (corners[k + 1].at - corners[k - 1].at);
             }
+            // Between bays, blunt ends of veins are broader than their bays.
+            if (corners[k].end && k > 0 && k + 1 < corners.size() && venation.sinus > 0.0)
+                turned.x *= 1.0 + blunt_breadth * (1.0 - venation.pointed);
             if (corners[k].end && k > 0) turned += venation.pointed * (chord - turned);
             return chord + venation.smooth * (turned - chord);
         };
         const BorderPoint leaving = bounded_handle(from, tangent(i), 1.0, to);
         const BorderPoint arriving = bounded_handle(to, tangent(i + 1), -1.0, from);
         const double tooth = teeth == 0 ? 0.0 : venation.teeth * 0.5 * glm::length(chord) / teeth;
-        const int count = teeth > 0 ? 2 * teeth : steps;
-        for (int step = 1; step <= count; ++step) {
-            double t = static_cast<double>(step) / count;
-            double lift = 0.0;
-            if (teeth > 0 && step % 2 == 1) {
-                // The first tooth after the end of a vein is the longest, as in doubly serrate
-                // leaves.
-                const double own = step == 1 ? 0.0
-                                             : unlike(static_cast<double>(i) * teeth + step +
-                                                      7.0 * static_cast<double>(which));
-                t = (step - 1 + tooth_tip - 0.3 * venation.unevenness * own) / count;
-                lift = tooth * (1.0 - teeth_spread * venation.unevenness * own);
-            }
+        const auto put = [&](double t, double lift) {
             const double s = 1.0 - t;
             border.push_back(s * s * s * from + 3.0 * s * s * t * leaving +
                              3.0 * s * t * t * arriving + t * t * t * to + BorderPoint(0.0, lift));
+        };
+        for (int step = 1; teeth == 0 && step <= steps; ++step)
+            put(static_cast<double>(step) / steps, 0.0);
+        for (int k = 0; k < teeth; ++k) {
+            // The first tooth after the end of a vein is the longest, as in doubly serrate leaves.
+            const double own = k == 0 ? 0.0
+                                      : unlike(static_cast<double>(i) * teeth + 2.0 * k + 1.0 +
+                                               7.0 * static_cast<double>(which));
+            const double tip = 0.5 * (tooth_tip - 0.3 * venation.unevenness * own);
+            const double lift = tooth * (1.0 - teeth_spread * venation.unevenness * own);
+            const bool fine = tooth_edges(steps) > 2;
+            if (fine) put((k + tooth_back * tip) / teeth, tooth_back_lift * lift);
+            put((k + tip) / teeth, lift);
+            if (fine) put((k + tip + tooth_front * (1.0 - tip)) / teeth, tooth_front_lift * lift);
+            put((k + 1.0) / teeth, 0.0);
         }
     }
     for (BorderPoint& place : border) place.y = std::max(place.y, least_height(lobe, place.x));
@@ -187,8 +211,10 @@ double along_limit(const Lobe& lobe, std::size_t side, double limit) {
 
 // Clips a border to its wedge and joins it to its neighbour; `joined` and `own` are abscissas, the
 // first not beyond the second.
+//
+// fine  whether the slope that leads from the joined part to the border is a curve
 void join_border(const Lobe& lobe, std::size_t side, double joined, double own,
-                 const std::vector<BorderPoint>& border, HalfLobe& half) {
+                 const std::vector<BorderPoint>& border, bool fine, HalfLobe& half) {
     half.joined = joined;
     half.abscissas = {0.0};
     half.heights = {0.0};
@@ -208,10 +234,16 @@ void join_border(const Lobe& lobe, std::size_t side, double joined, double own,
     // Where the joined part is wider than the border, a slope leads down to it.
     const double run = slope_run * high;
     const auto over = [&](double abscissa) {
-        return joined > 0.0 ? high - (abscissa - last) * (high / run) : 0.0;
+        if (!(joined > 0.0)) return 0.0;
+        const double share = (abscissa - last) / run;
+        if (!fine) return high * (1.0 - share);
+        const double left = std::max(0.0, 1.0 - 0.5 * share);
+        return high * left * left;
     };
+    const std::vector<double> shares =
+        fine ? std::vector<double>{0.25, 0.5, 0.75, 1.0, 1.4} : std::vector<double>{0.5, 1.0};
     if (joined > 0.0)
-        for (const double share : {0.5, 1.0}) {
+        for (const double share : shares) {
             const double abscissa = last + share * run;
             const auto after =
                 std::upper_bound(places.begin(), places.end(), abscissa,
@@ -347,6 +379,10 @@ Lobe planned_lobe(const Venation& venation, int outwards) {
                 own[i].abscissa -= 0.5 * venation.asymmetry * (side_veins[i].abscissa - begin);
             const double drawn = unlike(2.0 * static_cast<double>(i) + static_cast<double>(side));
             own[i].length *= 1.0 + vein_spread * venation.unevenness * (2.0 * drawn - 1.0);
+            own[i].length *= 1.0 + half_spread * venation.asymmetry * (side == 0 ? 1.0 : -1.0);
+            own[i].arch =
+                venation.arch * (1.0 - arch_spread * unlike(3.0 * static_cast<double>(i) +
+                                                            1.4 * static_cast<double>(side) + 0.3));
         }
     }
     return lobe;
@@ -357,7 +393,7 @@ void scale(Lobe& lobe, double unit) {
     for (double& node : lobe.nodes) node *= unit;
     for (HalfLobe& half : lobe.halves)
         for (HalfLobe::SideVein& vein : half.side_veins)
-            vein = {vein.abscissa * unit, vein.length * unit};
+            vein = {vein.abscissa * unit, vein.length * unit, vein.arch};
     lobe.reach *= unit;
 }
 
@@ -387,19 +423,32 @@ std::vector<Lobe> planned_lobes(const Venation& venation) {
     const double between = radians(venation.vein_deg);
     std::vector<Lobe> lobes;
     double unit = 1.0;
+    std::array<double, 2> turn{};  // of the left and the right lobe
     // The middle lobe is laid out first, because its reach is the unit of length.
     for (int j = 0; j <= pairs; ++j) {
-        Lobe lobe = planned_lobe(venation, j);
-        if (j == 0) unit = 1.0 / lobe.reach;
-        scale(lobe, unit);
-        lobe.turn = j * between;
-        set_angles(venation, j == pairs, pairs == 0, lobe);
-        lobes.push_back(lobe);
-        if (j == 0) continue;
-        std::swap(lobe.side_angle[0], lobe.side_angle[1]);
-        std::swap(lobe.base_angle[0], lobe.base_angle[1]);
-        lobe.turn = -lobe.turn;
-        lobes.insert(lobes.begin(), lobe);
+        const Lobe planned = planned_lobe(venation, j);
+        if (j == 0) unit = 1.0 / planned.reach;
+        for (std::size_t side = 0; side < (j == 0 ? 1U : 2U); ++side) {
+            // Main veins never stand farther apart than requested, so that they stay clear of the
+            // petiole.
+            const double draw = 2.0 * j + 5.0 * static_cast<double>(side);
+            const double shorter =
+                j == 0 ? 0.0 : lobe_spread * venation.asymmetry * unlike(draw + 1.0);
+            if (j > 0)
+                turn[side] += between * (1.0 - turn_spread * venation.asymmetry * unlike(draw));
+            Lobe lobe = planned;
+            scale(lobe, unit * (1.0 - shorter));
+            lobe.turn = turn[side];
+            set_angles(venation, j == pairs, pairs == 0, lobe);
+            if (side == 0) {
+                lobes.push_back(lobe);
+                continue;
+            }
+            std::swap(lobe.side_angle[0], lobe.side_angle[1]);
+            std::swap(lobe.base_angle[0], lobe.base_angle[1]);
+            lobe.turn = -lobe.turn;
+            lobes.insert(lobes.begin(), lobe);
+        }
     }
     return lobes;
 }
@@ -410,8 +459,9 @@ std::vector<Lobe> planned_lobes(const Venation& venation) {
 //
 // right_border, left_border  the facing borders before clipping
 void join_neighbours(const Venation& venation, const std::vector<BorderPoint>& right_border,
-                     const std::vector<BorderPoint>& left_border, Lobe& right, Lobe& left) {
-    const double between = radians(venation.vein_deg);
+                     const std::vector<BorderPoint>& left_border, bool fine, Lobe& right,
+                     Lobe& left) {
+    const double between = left.turn - right.turn;
     const auto reach = [&](const Lobe& lobe, std::size_t side, double limit,
                            const std::vector<BorderPoint>& border) {
         return last_crossing(lobe, side, limit, border) * along_limit(lobe, side, limit);
@@ -435,9 +485,9 @@ void join_neighbours(const Venation& venation, const std::vector<BorderPoint>& r
     const double scale_right = along_limit(right, 0, limit);
     const double scale_left = along_limit(left, 1, between - limit);
     join_border(right, 0, shared / scale_right, std::max(shared, from_right) / scale_right,
-                right_border, right.halves[0]);
+                right_border, fine, right.halves[0]);
     join_border(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left, left_border,
-                left.halves[1]);
+                fine, left.halves[1]);
 }
 
 }  // namespace
@@ -453,14 +503,15 @@ Lamina lamina_of(const Venation& venation, int steps) {
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t side = 0; side < 2; ++side)
             borders[i][side] = border_curve(venation, lamina.lobes[i], side, steps);
+    const bool fine = tooth_edges(steps) > 2;
     Lobe& first = lamina.lobes.front();
     Lobe& last = lamina.lobes.back();
     first.halves[1].limit = radians(behind_deg) + first.turn;
     last.halves[0].limit = radians(behind_deg) - last.turn;
-    join_border(first, 1, 0.0, 0.0, borders.front()[1], first.halves[1]);
-    join_border(last, 0, 0.0, 0.0, borders.back()[0], last.halves[0]);
+    join_border(first, 1, 0.0, 0.0, borders.front()[1], fine, first.halves[1]);
+    join_border(last, 0, 0.0, 0.0, borders.back()[0], fine, last.halves[0]);
     for (std::size_t i = 0; i + 1 < count; ++i)
-        join_neighbours(venation, borders[i][0], borders[i + 1][1], lamina.lobes[i],
+        join_neighbours(venation, borders[i][0], borders[i + 1][1], fine, lamina.lobes[i],
                         lamina.lobes[i + 1]);
     for (Lobe& lobe : lamina.lobes)
         for (HalfLobe& half : lobe.halves)
@@ -657,8 +708,8 @@ SineCosine LaminaSampler::line_through(const Lobe& lobe, const Half& known, doub
     return at;
 }
 
-// Sets the distance from the nearest side vein, one of the two whose abscissas enclose that of the
-// point.
+// Sets the distance from the nearest side vein: one of the two whose abscissas enclose that of the
+// point, or the one after them.
 void LaminaSampler::measure_side_vein(const HalfLobe& half, const SineCosine& at, Hint& hint,
                                       LaminaPlace& place) {
     const std::vector<HalfLobe::SideVein>& veins = half.side_veins;
@@ -667,11 +718,18 @@ void LaminaSampler::measure_side_vein(const HalfLobe& half, const SineCosine& at
     while (next > 0 && place.abscissa < veins[next - 1].abscissa) --next;
     while (next < veins.size() && place.abscissa >= veins[next].abscissa) ++next;
     hint.vein = next;
-    const bool above =
-        next == veins.size() || (next > 0 && place.abscissa - veins[next - 1].abscissa <=
-                                                 veins[next].abscissa - place.abscissa);
-    const HalfLobe::SideVein& vein = veins[above ? next - 1 : next];
-    place.from_side = std::abs(place.abscissa - vein.abscissa) * at.sine;
+    // Drawn veins sag towards the root, so that the one after the next may be the nearest.
+    const std::size_t first = next - std::min<std::size_t>(next, 1);
+    std::size_t nearest = first;
+    double least = 1e9;
+    for (std::size_t i = first; i < std::min(next + 2, veins.size()); ++i) {
+        const double away = std::abs(place.abscissa - veins[i].line(place.height));
+        if (away >= least) continue;
+        least = away;
+        nearest = i;
+    }
+    const HalfLobe::SideVein& vein = veins[nearest];
+    place.from_side = least * at.sine + std::max(0.0, least_vein - vein.length);
     place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
 }
 

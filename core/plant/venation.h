@@ -30,7 +30,7 @@ constexpr const char* name(LengthLaw law) {
 
 /// The parameters of a leaf's veins and border.
 /// source  [Viennot1989] section 6.1; additional: base_deg, side_length, narrow_base, narrow_tip,
-///         sinus, pointed, teeth, unevenness, asymmetry, net
+///         sinus, pointed, teeth, unevenness, asymmetry, arch, net
 struct Venation {
     Choice<1, 3, 5, 7, 9, 11, 13> lobes{1};
     int nodes = 8;
@@ -51,6 +51,7 @@ struct Venation {
     int teeth_per_vein = 2;
     double unevenness = 0.0;
     double asymmetry = 0.0;
+    double arch = 0.0;
     double net = 0.0;
 
     static constexpr void fields(auto visit) {
@@ -137,7 +138,12 @@ struct Venation {
                    .min = 0,
                    .max = 1,
                    .doc = "How far the side veins of both halves stand one after the "
-                          "other; 1 half-way between."});
+                          "other; 1 half-way between. Lobes and halves differ as much in size."});
+        visit(&V::arch, Info{.name = "arch",
+                             .min = 0,
+                             .max = 0.6,
+                             .doc = "How far side veins leave their main vein more steeply than "
+                                    "they run on, and arch towards the tip."});
         visit(&V::net, Info{.name = "net",
                             .min = 0,
                             .max = 1,
@@ -167,6 +173,13 @@ struct HalfLobe {
     double joined = 0.0;
     struct SideVein {
         double abscissa = 0.0, length = 0.0;
+        double arch = 0.0;  ///< slope at its start, towards the root, of its line over the heights
+
+        /// Returns the abscissa of the drawn vein at a height: it begins at its node and ends where
+        /// the straight vein ends, but sags towards the root between both.
+        [[nodiscard]] double line(double height) const {
+            return height < length ? abscissa - arch * height * (1.0 - height / length) : abscissa;
+        }
     };
     std::vector<SideVein> side_veins;  ///< from the root to the tip
     /// The border from the root (0, 0) to the tip (reach, 0): ascending abscissas, positive heights
@@ -214,8 +227,8 @@ struct Vein {
 /// and a side vein the latter.
 ///
 /// steps    number of edges of the border from one of its corners to the next, at least 1. A border
-///          with teeth has two edges per tooth instead if steps is 2 or more. 1 gives the polygon
-///          of the source, without curves and teeth
+///          with teeth has tooth_edges(steps) edges per tooth instead if steps is 2 or more. 1 gives
+///          the polygon of the source, without curves and teeth
 /// returns  halves that share only their main vein and the rays between lobes, so that the border
 ///          is a simple polygon
 /// throws   InvalidInput with all that check() reports
@@ -223,6 +236,10 @@ struct Vein {
 ///          both borders have their last crossing at one point, not by a search for intersections
 ///          of their borders
 [[nodiscard]] Lamina lamina_of(const Venation& venation, int steps);
+
+/// Returns the number of edges per tooth: 2, straight ones; with many steps 4, for a convex back and
+/// a hollow front.
+constexpr int tooth_edges(int steps) { return steps >= 5 ? 4 : 2; }
 
 /// Returns every vein that was not deleted, main veins first.
 [[nodiscard]] std::vector<Vein> veins_of(const Lamina& lamina);
@@ -241,7 +258,7 @@ struct LaminaPlace {
     /// border and beyond.
     double homothety = 0.0;
     double from_main = 0.0;  ///< distance from the main vein
-    /// Distance from the line of the nearest side vein of this half; 1e9 if it has none.
+    /// Distance from the drawn line of the nearest side vein of this half; 1e9 if it has none.
     double from_side = 1e9;
     double along_side = 0.0;  ///< height divided by the length of that vein
     /// How far a vein of third order or the net is here, 0..1; painters set it.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -45,9 +46,15 @@ TEST(LeafImage, ShowsThePaletteOnTheLamina) {
                 wanted += leaf_colour(preset.palette, place, 0.0, upper) / 16.0;
             }
             // Blotches and the net change brightness by a quarter at most, which is an eighth of
-            // the encoded value.
-            for (int k = 0; k < 3; ++k)
-                EXPECT_NEAR(seen[k], linear_to_srgb(wanted[k]), 0.13) << upper;
+            // the encoded value; below, needles have pale bands of pores.
+            double half_breadth = 0.0;
+            for (const glm::dvec2& place : border_of(lamina))
+                half_breadth = std::max(half_breadth, place.x);
+            const bool pores = !upper && half_breadth < 0.07;
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_LT(seen[k], linear_to_srgb(wanted[k]) + (pores ? 0.3 : 0.13)) << upper;
+                EXPECT_GT(seen[k], linear_to_srgb(wanted[k]) - 0.13) << upper;
+            }
         }
     }
 }

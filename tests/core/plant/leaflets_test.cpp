@@ -52,6 +52,18 @@ TEST(Leaflets, InTwoRowsStandLevelOnBothSidesInTurn) {
     }
 }
 
+TEST(Leaflets, NeighboursDifferInSizeAndAngle) {
+    Leaflets leaflets;
+    leaflets.count = 31;
+    leaflets.narrow_base = leaflets.narrow_tip = 0.0;
+    const std::vector<PlacedLeaflet> placed = placed_leaflets(leaflets);
+    for (std::size_t i = 0; i + 2 < placed.size(); ++i) {
+        EXPECT_GT(std::abs(placed[i].size - placed[i + 1].size), 1e-4 * leaflets.length);
+        EXPECT_GT(std::abs(placed[i].along.z - placed[i + 1].along.z), 1e-4);
+        EXPECT_GT(placed[i].size, 0.8 * leaflets.length);
+    }
+}
+
 TEST(Leaflets, AllRoundStandOnEverySideUnlessTheyAreParted) {
     Leaflets leaflets;
     leaflets.count = 60;

@@ -272,7 +272,7 @@ TEST(Venation, HomothetyIsOneOnTheBorder) {
 
 TEST(Venation, UnevenTeethAndVeinsDifferAndHalvesStandInTurn) {
     Venation venation = leaf_preset("birch")->shape.venation;
-    venation.unevenness = venation.asymmetry = 0.0;
+    venation.unevenness = venation.asymmetry = venation.arch = 0.0;
     const auto halves = [&] { return lamina_of(venation, 4).lobes.front().halves; };
     EXPECT_EQ(halves()[0].heights, halves()[1].heights);
     venation.asymmetry = 1.0;
@@ -287,6 +287,56 @@ TEST(Venation, UnevenTeethAndVeinsDifferAndHalvesStandInTurn) {
     venation.unevenness = 1.0;
     EXPECT_NE(halves()[0].heights, halves()[1].heights);
     EXPECT_NE(halves()[0].side_veins[2].length, halves()[1].side_veins[2].length);
+}
+
+// A tooth of a finely drawn border rises with a convex back: the point between its foot and its tip is
+// above the chord of both.
+TEST(Venation, FineTeethHaveConvexBacks) {
+    Venation venation;
+    venation.teeth = 1.0;
+    venation.teeth_per_vein = 1;
+    venation.smooth = 0.0;
+    const HalfLobe half = lamina_of(venation, 6).lobes.front().halves[0];
+    ASSERT_EQ(tooth_edges(6), 4);
+    ASSERT_EQ(tooth_edges(4), 2);
+    for (std::size_t i = 4; i + 8 < half.abscissas.size(); i += 4) {
+        const double share = (half.abscissas[i + 1] - half.abscissas[i]) /
+                             (half.abscissas[i + 2] - half.abscissas[i]);
+        EXPECT_GT(half.heights[i + 1],
+                  half.heights[i] + share * (half.heights[i + 2] - half.heights[i]));
+    }
+}
+
+TEST(Venation, SideVeinsArchBetweenTheirEnds) {
+    Venation venation;
+    venation.arch = 0.4;
+    const Lamina lamina = lamina_of(venation, 3);
+    for (const HalfLobe& half : lamina.lobes.front().halves)
+        for (const HalfLobe::SideVein& vein : half.side_veins) {
+            EXPECT_DOUBLE_EQ(vein.line(0.0), vein.abscissa);
+            EXPECT_NEAR(vein.line(vein.length), vein.abscissa, 1e-12);
+            EXPECT_LT(vein.line(0.5 * vein.length), vein.abscissa);
+        }
+    // The sampler measures from the arched line.
+    const HalfLobe::SideVein& vein = lamina.lobes.front().halves[0].side_veins[2];
+    const double height = 0.5 * vein.length;
+    const LaminaPlace place =
+        LaminaSampler(lamina).at(lamina.lobes.front().place(0, vein.line(height), height));
+    EXPECT_LT(place.from_side, 1e-6);
+}
+
+// Lobes of both sides differ in length and angle, and stand no farther apart than requested.
+TEST(Venation, AsymmetricLobesDifferFromSideToSide) {
+    Venation venation = leaf_preset("maple")->shape.venation;
+    venation.asymmetry = 1.0;
+    const std::vector<Lobe> lobes = lamina_of(venation, 4).lobes;
+    const std::size_t last = lobes.size() - 1;
+    for (std::size_t i = 0; i < lobes.size() / 2; ++i) {
+        EXPECT_GT(std::abs(lobes[i].turn + lobes[last - i].turn), 1e-3);
+        EXPECT_GT(std::abs(lobes[i].reach - lobes[last - i].reach), 1e-3);
+    }
+    for (std::size_t i = 0; i < last; ++i)
+        EXPECT_LE(lobes[i + 1].turn - lobes[i].turn, radians(venation.vein_deg) + 1e-12);
 }
 
 TEST(Venation, ImpossibleLeavesAreRefusedByName) {
