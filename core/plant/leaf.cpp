@@ -32,7 +32,7 @@ constexpr double faces_height = 0.9;    // of the image, above the petiole's str
 constexpr int open_lods = 2;
 constexpr std::array<std::array<double, 4>, open_lods> fineness = {
     {{0.5, 0.7, 1.0, 1.5}, {0.9, 1.3, 1.8, 3.0}}};
-constexpr std::array<std::size_t, open_lods> spot_vertices = {70, 20}, spot_triangles = {116, 28};
+constexpr std::array<std::size_t, open_lods> spot_vertices = {120, 20}, spot_triangles = {200, 28};
 
 struct Level {
     int steps;
@@ -52,7 +52,7 @@ Level level_of(const Venation& venation, int lod) {
     if (lod == 0) {
         if (corners <= 30) return {8, {0.0, 0.12, 0.55, 1.0}, 2, 8, 7};
         if (corners <= 60) return {6, {0.0, 0.15, 0.6, 1.0}, 1, 8, 7};
-        if (corners <= 80) return {6, {0.0, 0.3, 1.0}, 1, 8, 7};
+        if (corners <= 100) return {6, {0.0, 0.3, 1.0}, 1, 8, 7};
         return {2, {0.0, 0.3, 1.0}, 1, 6, 5};
     }
     if (lod == 1) {

@@ -141,7 +141,7 @@ inline constexpr int leaf_lods = 4;
 /// Returns the whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face
 /// up.
 ///
-/// lod      0: up to 5,000 triangles, and up to 240 for each place that is eaten; 1: about 500; 2: the
+/// lod      0: up to 5,000 triangles, and up to 400 for each place that is eaten; 1: about 500; 2: the
 ///          polygon of the source; 3: a fan of most_foliage_triangles of the same length and width, or
 ///          the polygon if it has no more triangles. Of a compound leaf each leaflet is 0: a lamina
 ///          with as smooth a border as most_leaflet_triangles for all allow; 1: a fan; 2 and 3: a
