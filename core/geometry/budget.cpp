@@ -113,16 +113,20 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
         return count;
     };
     const std::uint64_t limit = triangle_limit(level);
-    // Smoothness leaves room for the ground, whether there is any: the ground changes nothing else.
+    // Smoothness and the surplus leave triangles for the ground, whether there is any: the ground
+    // changes nothing else.
     OrnamentDetail bare = budget.ornaments;
     bare.ground = 0.0;
     while (solids && total_of(bare).triangles > limit - limit / room_for_ground &&
            (drop_row(budget.blades) || drop_row(budget.cells)))
         continue;
+    while (total_of(bare).triangles > limit - limit / room_for_ground && drop_surplus(bare))
+        continue;
+    budget.ornaments.surplus = bare.surplus;
     const auto total = [&] { return total_of(budget.ornaments); };
     budget.count = total();
     while (budget.count.triangles > limit &&
-           (drop_surplus(budget.ornaments) || drop_ground(individual, budget.ornaments) ||
+           (drop_ground(individual, budget.ornaments) || drop_surplus(budget.ornaments) ||
             coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
             (!solids && drop_patches(budget.ornaments, level)) ||
             drop_free_solids(individual, budget.ornaments)))

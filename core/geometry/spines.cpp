@@ -67,6 +67,10 @@ constexpr double fold_rise = 0.55, fold_taper = 0.45, least_taper = 0.2, fold_se
 /// How far the crest of a fold lies in the body at both its ends, in the depth of its bottom there.
 constexpr double fold_end = 0.8;
 
+/// Length of the longest fold, and depth of the deepest in the body, in its radii: a longer one would
+/// wrap round it.
+constexpr double longest_fold = 1.3, deepest_fold = 0.6;
+
 /// How far a fold leans to a side, in its heights.
 constexpr double fold_lean = 0.35;
 
@@ -228,8 +232,10 @@ double signed_power(double value, double exponent) {
 /// the other; both ends lie in the body. Columns begin at the bottom.
 ///
 /// wider  how much thicker it is than others at the finest level; it is no longer and winds no more
-void build_fold(GridSolid& solid, const SpineRoot& root, double height, double width, double wider,
-                const SpineStyle& style, Random& random) {
+void build_fold(GridSolid& solid, const SpineRoot& root, double height, double full_width,
+                double wider, const SpineStyle& style, Random& random) {
+    const double width = std::min(
+        full_width, longest_fold / (std::max(style.breadth, 1.0) * std::max(root.curvature, 1e-9)));
     const double heading = random.uniform(0.0, 2.0 * pi), bow = random.symmetric();
     const double lean = random.symmetric();
     const double turns = random.uniform(least_turns, most_turns);
@@ -243,7 +249,10 @@ void build_fold(GridSolid& solid, const SpineRoot& root, double height, double w
     const glm::dvec3 forwards = turn.cosine * first + turn.sine * second,
                      sideways = glm::cross(out, forwards);
     const double half = 0.5 * style.breadth * width;
-    const double sunk_depth = fold_sunk * height;
+    const double sunk_depth =
+        std::min(fold_sunk * height, deepest_fold / std::max(root.curvature, 1e-9));
+    // A tall fold leans no farther than it is long, so that it does not cross itself where it winds.
+    const double leaning = fold_lean * lean * std::min(height, 2.0 * half);
     // Returns the middle of the fold on the surface at a place along it, -1..1.
     const auto middle = [&](double u) {
         const double wind = sine_cosine(aside_phase + 2.0 * pi * turns * u).sine;
@@ -282,8 +291,7 @@ void build_fold(GridSolid& solid, const SpineRoot& root, double height, double w
             const double up = 0.5 - 0.5 * signed_power(round.cosine, fold_section);
             const double aside = thick * signed_power(round.sine, fold_section);
             const double crest =
-                up * up * rise *
-                (style.meander * crest_aside * width * over + fold_lean * lean * height);
+                up * up * rise * (style.meander * crest_aside * width * over + leaning);
             solid.corners.push_back(centre + (up * (top + sunk_depth) - sunk_depth) * out +
                                     (aside + crest) * left);
         }

@@ -146,7 +146,7 @@ void add_impostor(Estimate& sum, TextureSize texture_size, const FileOptions& fi
     sum.impostor_texels += 3 * side * side;
     add_level(sum, card_vertices, card_triangles, Textures::embedded, file);
     const auto used = static_cast<std::uint64_t>(frame_grid * frame_side_of(texture_size));
-    const std::uint64_t webp = used * used * 2 / 5, jpg = used * used * 3;
+    const std::uint64_t webp = used * used * 9 / 20, jpg = used * used * 3;
     switch (file.image_format) {
         case ImageFormats::jpg:
             sum.bytes += jpg;

@@ -292,8 +292,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     texel.colour.r = texel.colour.r * set(plan.tint.r);
     texel.colour.g = texel.colour.g * set(plan.tint.g);
     texel.colour.b = texel.colour.b * set(plan.tint.b);
-    texel.shade =
-        one + fields[stem_broad] * set(0.03F) + middle * set(0.05F) + fine * set(0.06F);
+    texel.shade = one + middle * set(0.05F) + fine * set(0.06F);
     texel.occlusion = one + hn::Min(fine, zero) * set(0.25F);
     texel.roughness = set(plan.roughness) + fine * set(0.04F) + middle * set(0.03F);
     if (plan.fibrils > 0.0F) {

@@ -265,7 +265,7 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
         individual.azimuth.base = 0.0;  // it would bend the chords
         individual.damage.bites = individual.damage.splits = false;
         const Mesh clean = mushroom_mesh(order, individual);
-        const double surplus = budget_of(individual, lod).ornaments.surplus;
+        const Budget offered = budget_of(individual, lod);
         individual.damage.bites = individual.damage.splits = true;
         const Mesh worn = mushroom_mesh(order, individual);
         SCOPED_TRACE(id + " lod " + std::to_string(lod));
@@ -292,8 +292,10 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
             }
         // Between rings a twisted quad is two triangles in one mesh and more in the other, which
         // matters more at coarse levels.
-        // A ring has fewer columns where those of cuts leave fewer triangles to it.
-        if (lod == 0 && budget_of(individual, lod).ornaments.surplus == surplus) {
+        // Rings and gills have fewer columns where those of cuts leave fewer triangles to them.
+        const Budget left = budget_of(individual, lod);
+        if (lod == 0 && left.ornaments.surplus == offered.ornaments.surplus &&
+            left.blades.segments == offered.blades.segments) {
             EXPECT_LT(hausdorff(clean, worn), 0.001 * glm::distance(box.min, box.max));
         }
         EXPECT_NEAR(area(worn) / area(clean), 1.0, 0.005);

@@ -59,10 +59,10 @@ constexpr std::array<double, 4> ages = {0.6, 0.3, 0.85, 0.1};
 // At the size where the coarser of two levels takes over, its silhouette differs by less than a
 // pixel along its outline.
 TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
-    // A cushion whose outline is upright folds alone has few triangles for each: within two pixels.
-    const bool is_folded =
-        atlas().find(GetParam())->species.stages.front().model.spines.is_folded();
-    const double folded = is_folded ? 2.3 : 1.0;
+    // A cushion whose outline is upright folds alone has few triangles for each, and the tips of a
+    // beard are only thinned out: within two pixels and one and a third.
+    const SpineStyle& spines = atlas().find(GetParam())->species.stages.front().model.spines;
+    const double allowed = spines.is_folded() ? 2.3 : spines.count > 2000 ? 1.33 : 1.0;
     for (const double age : std::span(ages).first(effort(4, 1, 4))) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
         for (std::size_t k = 0; k + 1 < levels.size(); ++k)
@@ -70,7 +70,7 @@ TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
                 const ImagePlane canvas = canvas_of(levels[0].mesh, made_for[k + 1]);
                 const Drawing fine = drawn(levels[k].mesh, view, canvas);
                 const Drawing coarse = drawn(levels[k + 1].mesh, view, canvas);
-                EXPECT_LT(symmetric_difference(fine, coarse), folded * outline_length(fine))
+                EXPECT_LT(symmetric_difference(fine, coarse), allowed * outline_length(fine))
                     << "age " << age << ", level " << k << " and the next, from " << view.azimuth
                     << ", " << view.elevation;
             }
