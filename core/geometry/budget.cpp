@@ -123,10 +123,13 @@ Budget budget_of(const Individual& individual, DetailLevel level, bool solids) {
     while (total_of(bare).triangles > limit - limit / room_for_ground && drop_surplus(bare))
         continue;
     budget.ornaments.surplus = bare.surplus;
+    // The least ground of a mix is a clod of each species, which the share set aside does not pay.
+    const bool has_clods = individual.grounds.size() > 1;
     const auto total = [&] { return total_of(budget.ornaments); };
     budget.count = total();
     while (budget.count.triangles > limit &&
-           (drop_ground(individual, budget.ornaments) || drop_surplus(budget.ornaments) ||
+           ((has_clods && drop_surplus(budget.ornaments)) ||
+            drop_ground(individual, budget.ornaments) || drop_surplus(budget.ornaments) ||
             coarsen(budget.ornaments, level) || (solids && coarsen(individual, budget.blades)) ||
             (!solids && drop_patches(budget.ornaments, level)) ||
             drop_free_solids(individual, budget.ornaments)))

@@ -289,15 +289,17 @@ std::vector<RingStation> ring_line(double width, const OutlineSample& attachment
 
 std::vector<RingColumn> ring_columns(const RingStyle& style, const OutlineSample& attachment,
                                      const OrnamentContext& context, int count) {
+    // Columns that are surplus show the same ring, only more smoothly.
+    const int sure = context.detail.columns;
     Random groove_stream(context.seed, purposes::ring_grooves),
         tear_stream(context.seed, purposes::ring_tear), random(context.seed, purposes::ring_ruffle);
     const int groove_count = 27 + static_cast<int>(groove_stream.bits() % 9);
     const double groove_phase = groove_stream.uniform(0.0, 2.0 * pi);
-    const RoundNoise furrowed(groove_stream, 9, count);
-    const Rents rents(tear_stream, {5, 8, 30}, count);
-    const RoundNoise broad(random, 3, count), wide(random, 5, count), folds(random, 11, count),
-        fine_folds(random, 23, count), heights(random, 7, count), hangs(random, 6, count),
-        lips(random, 13, count), fine_lips(random, 37, count), edges(random, 19, count);
+    const RoundNoise furrowed(groove_stream, 9, sure);
+    const Rents rents(tear_stream, {5, 8, 30}, sure);
+    const RoundNoise broad(random, 3, sure), wide(random, 5, sure), folds(random, 11, sure),
+        fine_folds(random, 23, sure), heights(random, 7, sure), hangs(random, 6, sure),
+        lips(random, 13, sure), fine_lips(random, 37, sure), edges(random, 19, sure);
     const UnevenAngle uneven(random);
     std::vector<RingColumn> columns;
     for (int j = 0; j <= count; ++j) {
@@ -306,7 +308,7 @@ std::vector<RingColumn> ring_columns(const RingStyle& style, const OutlineSample
         const double flare = 0.6 * broad.at(wavy) + 0.4 * wide.at(wavy);
         // Grooves too fine for the columns of the mesh would alias.
         const double groove =
-            3 * groove_count > count
+            3 * groove_count > sure
                 ? 0.0
                 : (0.6 + 0.4 * furrowed.at(angle)) * sine(groove_count * wavy + groove_phase);
         const double torn = style.tear * rents.at(angle);
@@ -517,10 +519,11 @@ void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& co
     const double height = style.height;
     const double thickness = std::min(style.thickness, sac_thickness * height);
     const int count = solid.columns;
+    const int sure = context.detail.columns;  // as for rings
     Random random(context.seed, purposes::sac);
-    const Rents rents(random, {3, 5, 22}, count);
-    const RoundNoise lips(random, 5, count), fine_lips(random, 13, count);
-    const SacFolds folds(context.seed, count);
+    const Rents rents(random, {3, 5, 22}, sure);
+    const RoundNoise lips(random, 5, sure), fine_lips(random, 13, sure);
+    const SacFolds folds(context.seed, sure);
     const SacProfile profile(style, context.outline.stem, context.deformer.base());
     const double conforms = conforming(height, profile.widest());
     // The sac begins inside the stem and comes out of it soon after.

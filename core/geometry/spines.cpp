@@ -79,7 +79,7 @@ struct Resolution {
     int least_columns, rows, sides, most;
 };
 constexpr std::array<Resolution, 5> resolutions = {
-    {{64, 3, 3, 6000}, {48, 3, 3, 1000}, {28, 2, 3, 640}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
+    {{64, 3, 3, 6000}, {48, 3, 3, 1000}, {28, 2, 3, 570}, {12, 2, 3, 80}, {0, 2, 3, 25}}};
 /// The same of upright folds, of which each is a part of the outline.
 constexpr std::array<Resolution, 6> fold_resolutions = {{{90, 18, 8, 60},
                                                          {60, 14, 8, 60},
@@ -111,9 +111,15 @@ class Meridian {
   public:
     /// from, to  see SpineStyle; of a form without a lower face both run over the cap alone
     Meridian(const Outline& outline, double from, double to)
-        : cap_alone_(outline.hymenium.empty()),
-          from_(cap_alone_ ? 1.0 + 0.5 * from : from),
-          to_(cap_alone_ ? 1.0 + 0.5 * to : to) {
+        : cap_alone_(outline.hymenium.empty()) {
+        // As the lower face of a mix vanishes, its share passes to the cap.
+        const double lower =
+            cap_alone_
+                ? 0.0
+                : smooth_step(0.0, whole_lower,
+                              outline.hymenium.length() / std::max(outline.cap.length(), 1e-9));
+        from_ = lower * from + (1.0 - lower) * (1.0 + 0.5 * from);
+        to_ = lower * to + (1.0 - lower) * (1.0 + 0.5 * to);
         const double step = (to_ - from_) / samples;
         for (int i = 0; i < samples; ++i) {
             const double share = from_ + (i + 0.5) * step;
@@ -143,8 +149,10 @@ class Meridian {
 
   private:
     static constexpr int samples = 96;
+    /// Length of a lower face from which on it has a share of its own, in that of the cap.
+    static constexpr double whole_lower = 0.1;
     bool cap_alone_;
-    double from_, to_;
+    double from_ = 0.0, to_ = 0.0;
     std::array<double, samples + 1> areas_{};
 };
 

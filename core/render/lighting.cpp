@@ -20,7 +20,7 @@ namespace {
 // Strengths were chosen by eye: a white matt ball is just below white where it faces the lamp, and
 // about a sixth of that in its shadow.
 constexpr glm::vec3 lamp_strength(0.95F, 0.92F, 0.86F);
-constexpr glm::vec3 back_lamp_strength(0.52F, 0.52F, 0.51F);
+constexpr glm::vec3 back_lamp_strength(0.34F, 0.36F, 0.40F);
 constexpr glm::vec3 zenith(0.46F, 0.50F, 0.56F), horizon(0.40F, 0.40F, 0.40F),
     ground(0.24F, 0.22F, 0.19F);
 
@@ -91,7 +91,7 @@ StudioLights studio_lights(const CameraAxes& axes, int detail) {
     StudioLights lights;
     add_lamp(lights.lamps, -0.62 * right + 0.72 * up - 0.66 * forward, lamp_radius,
              share(lamp_parts), lamp_strength);
-    add_lamp(lights.lamps, 0.62 * right + 0.55 * up + 0.85 * forward, back_lamp_radius,
+    add_lamp(lights.lamps, 0.75 * right + 0.45 * up + 0.75 * forward, back_lamp_radius,
              share(back_lamp_parts), back_lamp_strength);
     const auto from_below =
         static_cast<float>(smooth_step(0.0, reflector_rise, static_cast<double>(axes.forward.y)));

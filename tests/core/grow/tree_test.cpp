@@ -167,7 +167,8 @@ TEST_P(EveryTree, HasTheSameSilhouetteAtEveryLevel) {
                     whole += was[view][i];
                 }
             }
-            EXPECT_LE(differ / whole, 0.1) << seed << ' ' << spec.params.lod;
+            // Between slim needles more light passes than through the leaves that stand for them.
+            EXPECT_LE(differ / whole, 0.125) << seed << ' ' << spec.params.lod;
         }
     }
 }
