@@ -397,7 +397,7 @@ HWY_INLINE void show_damage(const DamagePlan& plan, const DamageTexel& damage, V
         const VF dry = unit(set(0.50F) + cloud * set(0.26F));
         Rgb flesh =
             shaded(rgb(plan.flesh), one + fibre * set(0.14F) + cloud * set(0.06F) - set(0.04F));
-        flesh = mix(flesh, {flesh.r * set(0.66F), flesh.g * set(0.50F), flesh.b * set(0.34F)}, dry);
+        flesh = dried(flesh, dry);
         flesh = mix(flesh, texel.colour, set(0.30F));
         if (stained) flesh = mix(flesh, rgb(plan.bruise), stain * set(0.75F));
         texel.colour = mix(texel.colour, flesh, open);

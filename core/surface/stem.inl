@@ -334,7 +334,7 @@ HWY_INLINE void veil_fields(const VeilPlan& plan, VF turn, VF across, VF* fields
     const VF coarse = fibrils(coarse_fibrils, 1.3F, plan.seed[0]),
              fine = fibrils(fine_fibrils, 2.7F, plan.seed[0] + 1U);
     fields[veil_cloud] = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
-    const VF bundled = hn::Max(hn::Min(set(0.5F) + fields[veil_cloud], set(1.0F)), set(0.0F));
+    const VF bundled = unit(set(0.5F) + fields[veil_cloud]);
     fields[veil_thread] =
         coarse * (set(0.35F) + set(0.4F) * bundled) + fine * (set(0.75F) - set(0.4F) * bundled);
 }

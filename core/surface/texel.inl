@@ -30,6 +30,11 @@ HWY_INLINE Rgb shaded(const Rgb& colour, VF factor) {
     return {colour.r * factor, colour.g * factor, colour.b * factor};
 }
 
+/// Returns the colour of torn flesh that has dried. dry: 0..1
+HWY_INLINE Rgb dried(const Rgb& flesh, VF dry) {
+    return mix(flesh, {flesh.r * set(0.66F), flesh.g * set(0.50F), flesh.b * set(0.34F)}, dry);
+}
+
 /// Result of painting a texel. Height is in disc radii, or in lengths of the strip.
 struct Texel {
     Rgb colour;

@@ -79,9 +79,7 @@ HWY_INLINE Texel flesh_texel(const FleshPlan& plan, VF along, VF across, const V
     // It dries in clouds, first along both edges.
     const VF edge = one - smooth(across, 0.02F, 9.0F) * (one - smooth(across, 0.80F, 7.0F));
     const VF dry = unit(set(0.34F) + cloud * set(0.22F) + grain * set(0.14F) + edge * set(0.45F));
-    const Rgb fresh = rgb(plan.colour);
-    out.colour = shaded(
-        mix(fresh, {fresh.r * set(0.66F), fresh.g * set(0.50F), fresh.b * set(0.34F)}, dry), shade);
+    out.colour = shaded(dried(rgb(plan.colour), dry), shade);
     out.height = height;
     out.roughness = set(plan.roughness) + grain * set(0.04F);
     out.occlusion = one + hn::Min(grain + fibre * set(0.6F), set(0.0F)) * set(0.3F) -
