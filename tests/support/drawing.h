@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/model/spines.h"
 #include "core/surface/charts.h"
 #include "core/surface/paint.h"
 
@@ -49,6 +50,15 @@ struct Drawing {
 
 /// Returns the length of the border of the covered area in pixels, by marching squares.
 [[nodiscard]] double outline_length(const Drawing& drawing);
+
+/// Returns by how many pixels along the outline silhouettes of neighbouring levels of a species may
+/// differ: one; but a cushion whose outline is upright folds alone has few triangles for each, and the
+/// tips of a beard are only thinned out.
+///
+/// spines  of the species
+[[nodiscard]] constexpr double silhouette_tolerance(const SpineStyle& spines) {
+    return spines.is_folded() ? 2.3 : spines.count > 2000 ? 1.45 : 1.0;
+}
 
 /// A colour in CIE L*a*b*, white point D65.
 struct Lab {

@@ -59,10 +59,8 @@ constexpr std::array<double, 4> ages = {0.6, 0.3, 0.85, 0.1};
 // At the size where the coarser of two levels takes over, its silhouette differs by less than a
 // pixel along its outline.
 TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
-    // A cushion whose outline is upright folds alone has few triangles for each, and the tips of a
-    // beard are only thinned out: within two pixels and one and a half.
-    const SpineStyle& spines = atlas().find(GetParam())->species.stages.front().model.spines;
-    const double allowed = spines.is_folded() ? 2.3 : spines.count > 2000 ? 1.45 : 1.0;
+    const double allowed =
+        silhouette_tolerance(atlas().find(GetParam())->species.stages.front().model.spines);
     for (const double age : std::span(ages).first(effort(4, 1, 4))) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
         for (std::size_t k = 0; k + 1 < levels.size(); ++k)

@@ -267,9 +267,8 @@ TEST(LevelChoice, OfOtherProductsIsTheNearestWholeOne) {
 // At the size where the coarser of two levels of a chain takes over, its silhouette differs by less
 // than a pixel along its outline.
 TEST_P(EveryLevel, OfAChainHasTheSilhouetteOfTheNext) {
-    // As between whole levels.
-    const SpineStyle& spines = atlas().find(GetParam())->species.stages.front().model.spines;
-    const double allowed = spines.is_folded() ? 2.3 : spines.count > 2000 ? 1.45 : 1.0;
+    const double allowed =
+        silhouette_tolerance(atlas().find(GetParam())->species.stages.front().model.spines);
     constexpr std::array<ViewDirection, 2> views = {{{20, 0}, {200, 40}}};
     MushroomSpec spec = textured(order_of(GetParam(), 0.6, 3));
     spec.params.file.lods = Lods::msft;
