@@ -25,7 +25,7 @@ constexpr double merge_distance = 0.0002;
 // Share of a cut's damage from which on its columns stand at their own places.
 constexpr double open_at = 0.12;
 
-// Numbers of cuts at a level of detail; `inside`: columns on each side of a bite's middle: one
+// Numbers of cuts at a level of detail, which the species of a mix share; `inside`: columns on each side of a bite's middle: one
 // beside its end, one at its cusp; `long_splits`: how many splits, if they are long enough, have a column in the middle of
 // each lip beside those at the tip and on the margin. A pair of species needs all of its triangles:
 // more columns would coarsen its other parts.
@@ -48,21 +48,23 @@ double scaled_share(double share, double fixed, double last) {
     return fixed + (share - fixed) * (last - fixed) / (1.0 - fixed);
 }
 
-// Returns the notches of a level of detail, in the order of their onset.
-std::vector<Notch> notches_of(const Individual& individual, const LodLimits& limits) {
-    const std::uint32_t seed = individual.painted_seed;
-    std::vector<Notch> out;
-    const auto add = [&out](const std::vector<Notch>& all, int most) {
-        const auto count = std::min(all.size(), static_cast<std::size_t>(most));
-        out.insert(out.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+// Returns the notches of a level of detail: those of each species, in the order of their onset. A
+// mesh has vertices for all of them, since each image shows those of its own species.
+std::vector<SizedNotch> notches_of(const Individual& individual, const LodLimits& limits) {
+    const std::vector<MarginDamage>& all = individual.damage.margins;
+    std::vector<SizedNotch> out;
+    const auto add = [&out](const std::vector<Notch>& drawn, std::size_t most, double amount) {
+        for (std::size_t i = 0; i < std::min(drawn.size(), most); ++i)
+            out.push_back({drawn[i], begun(drawn[i].onset, amount)});
     };
-    if (individual.damage.bites && limits.bites > 0) add(bites(seed), limits.bites);
-    if (individual.damage.splits && limits.splits > 0) add(splits(seed), limits.splits);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::uint32_t seed = damage_seed(individual.painted_seed, all[k].stream);
+        const std::size_t most_bites = own_share(limits.bites, all, k, &MarginDamage::can_bite),
+                          most_splits = own_share(limits.splits, all, k, &MarginDamage::can_split);
+        if (most_bites > 0) add(bites(seed), most_bites, all[k].bites);
+        if (most_splits > 0) add(splits(seed), most_splits, all[k].splits);
+    }
     return out;
-}
-
-double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
-    return begun(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
 }
 
 // Returns the angles from the middle of a bite at which it needs columns on one side.
@@ -82,11 +84,21 @@ std::vector<double> columns_of_lip(const Lip& lip, bool is_long) {
 
 }  // namespace
 
+std::size_t own_share(int limit, std::span<const MarginDamage> all, std::size_t species,
+                      bool MarginDamage::*can) {
+    if (!(all[species].*can)) return 0;
+    const auto able = [&](std::span<const MarginDamage> some) {
+        return static_cast<std::size_t>(std::count_if(
+            some.begin(), some.end(), [&](const MarginDamage& one) { return one.*can; }));
+    };
+    const std::size_t count = able(all), most = static_cast<std::size_t>(limit);
+    return most / count + (able(all.first(species)) < most % count ? 1 : 0);
+}
+
 MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
     const Outline& outline = individual.outline;
-    const WeatheringOf<Plain>& amounts = individual.damage.amounts;
     const LodLimits& limits = at_level(limits_by_lod, level);
-    std::vector<Notch> notches;
+    std::vector<SizedNotch> notches;
     if (!outline.hymenium.empty()) {
         notches = notches_of(individual, limits);
         melts_ = individual.damage.melts;
@@ -96,16 +108,14 @@ MarginCuts::MarginCuts(const Individual& individual, DetailLevel level) {
         cap_length_ = outline.cap.length();
         lower_length_ = outline.hymenium.length();
         cap_radius_ = greatest_radius(outline.cap);
-        for (const Notch& notch : notches) {
-            const double size = share_of(notch, amounts);
+        for (const auto& [notch, size] : notches)
             if (size > 0.0) open_.push_back({notch, notch.depth * cap_radius_, size});
-        }
     }
     if (melts_) {
-        melted_ = melted(amounts.deliquescence) * cap_length_;
+        melted_ = melted(individual.damage.amounts.deliquescence) * cap_length_;
         phase_ = MixedRandom(damage_shares(individual), purposes::ragged).uniform(0.0, whole_turn);
     }
-    place_columns(columns_of(notches, amounts, {limits.inside, limits.long_splits}), notches,
+    place_columns(columns_of(notches, {limits.inside, limits.long_splits}), notches,
                   detail_of(level).columns);
     placed_turns_ = turns_;
     const auto turn_of = [this](std::size_t k) { return k == turns_.size() ? 1.0 : turns_[k]; };
@@ -139,12 +149,11 @@ std::vector<double> MarginCuts::depths_of(bool lower) const {
     return out;
 }
 
-std::vector<MarginCuts::CutColumn> MarginCuts::columns_of(const std::vector<Notch>& notches,
-                                                          const WeatheringOf<Plain>& amounts,
+std::vector<MarginCuts::CutColumn> MarginCuts::columns_of(const std::vector<SizedNotch>& notches,
                                                           ColumnLimits limits) {
     std::vector<CutColumn> own;
-    for (const Notch& notch : notches) {
-        const double open = smooth_step(0.0, open_at, share_of(notch, amounts));
+    for (const auto& [notch, size] : notches) {
+        const double open = smooth_step(0.0, open_at, size);
         const auto add = [&](double angle) {
             const double turn = angle / whole_turn;
             own.push_back({turn - std::floor(turn), open});
@@ -164,8 +173,8 @@ std::vector<MarginCuts::CutColumn> MarginCuts::columns_of(const std::vector<Notc
     return own;
 }
 
-void MarginCuts::place_columns(const std::vector<CutColumn>& own, const std::vector<Notch>& notches,
-                               int even) {
+void MarginCuts::place_columns(const std::vector<CutColumn>& own,
+                               const std::vector<SizedNotch>& notches, int even) {
     auto next = own.begin();
     std::vector<double> open;  // per column from an even one to the next
     for (int j = 0; j < even; ++j) {
@@ -184,9 +193,9 @@ void MarginCuts::place_columns(const std::vector<CutColumn>& own, const std::vec
         }
         open.push_back(1.0);
         const bool reached =
-            melts_ || std::any_of(notches.begin(), notches.end(), [&](const Notch& notch) {
-                return std::abs(turn_between(notch.theta, pi * (from + to))) <=
-                       notch.half_width + pi * (to - from) + 1e-9;
+            melts_ || std::any_of(notches.begin(), notches.end(), [&](const SizedNotch& cut) {
+                return std::abs(turn_between(cut.notch.theta, pi * (from + to))) <=
+                       cut.notch.half_width + pi * (to - from) + 1e-9;
             });
         may_cut_.insert(may_cut_.end(), turns_.size() - left, reached);
         insert_columns(left, to, open);

@@ -12,6 +12,21 @@
 
 namespace sporeprint {
 
+/// A notch of a species, and its present size: 0..1, of one with the species' weight.
+struct SizedNotch {
+    Notch notch;
+    double size = 0.0;
+};
+
+/// Returns how many of a level's cuts of a kind a species of a mix has: together they have as many as
+/// one alone, because a pair needs its triangles for other parts.
+///
+/// limit    cuts of the kind at the level
+/// species  its place in `all`
+/// can      whether a species can have the kind
+[[nodiscard]] std::size_t own_share(int limit, std::span<const MarginDamage> all,
+                                    std::size_t species, bool MarginDamage::*can);
+
 /// Computes, for each angle round the axis (radians), where the upper and the lower face end. A cut
 /// removes about the same length from both meridians; the remaining surface is compressed along its
 /// meridian, so that gills, warts and pores move with it. A zone next to the axis does not move.
@@ -116,10 +131,9 @@ class MarginCuts {
         int long_splits;  ///< how many splits may have one in the middle of each lip, if long
     };
     /// Returns the columns of all notches in the order of their turns.
-    [[nodiscard]] static std::vector<CutColumn> columns_of(const std::vector<Notch>& notches,
-                                                           const WeatheringOf<Plain>& amounts,
+    [[nodiscard]] static std::vector<CutColumn> columns_of(const std::vector<SizedNotch>& notches,
                                                            ColumnLimits limits);
-    void place_columns(const std::vector<CutColumn>& own, const std::vector<Notch>& notches,
+    void place_columns(const std::vector<CutColumn>& own, const std::vector<SizedNotch>& notches,
                        int even);
     void insert_columns(std::size_t left, double to, const std::vector<double>& open);
 

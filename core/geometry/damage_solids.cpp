@@ -134,13 +134,18 @@ void DamageSolids::solid(const std::vector<glm::dvec3>& corners, const glm::dvec
 }
 
 void DamageSolids::add_rolls() {
-    if (!individual_.damage.peels || limits_.rolls == 0) return;
+    const std::vector<MarginDamage>& all = individual_.damage.margins;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        add_rolls(all[k], own_share(limits_.rolls, all, k, &MarginDamage::can_peel));
+}
+
+void DamageSolids::add_rolls(const MarginDamage& species, std::size_t left) {
     const double most = individual_.model.surface.damage.peel_reach;
     const double length = individual_.outline.cap.length();
-    int left = limits_.rolls;
-    for (const Tongue& tongue : tongues(individual_.painted_seed)) {
-        if (left-- <= 0) break;
-        const double scale = begun(tongue.onset, amounts_.peel) * (most > 0.0 ? 1.0 : 0.0);
+    const std::uint32_t seed = damage_seed(individual_.painted_seed, species.stream);
+    for (const Tongue& tongue : tongues(seed)) {
+        if (left-- == 0) break;
+        const double scale = begun(tongue.onset, species.peel) * (most > 0.0 ? 1.0 : 0.0);
         const double deep = std::min(tongue.reach * most * scale, 0.95);
         const double wide = tongue.half_width * (0.6 + 0.4 * scale);
         const auto sides = static_cast<std::size_t>(roll_sides);

@@ -45,6 +45,9 @@ class DamageSolids {
     void add_drips();
 
   private:
+    /// Appends the rolls of one species, at most as many as `left`.
+    void add_rolls(const MarginDamage& species, std::size_t left);
+
     /// A point of the cap, interpolated between vertices.
     struct CapPoint {
         glm::dvec3 position, normal, meridian;

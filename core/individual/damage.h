@@ -1,6 +1,6 @@
-// The places of damage by weather, slugs and handling: drawn once per individual, or per species of
-// one, on the young surface; used by geometry and painting. Amounts only open, deepen and lengthen what is drawn
-// here, so that no slider and no age moves it.
+// The places of damage by weather, slugs and handling: drawn once per species of an individual, on
+// the young surface; used by geometry and painting. Amounts only open, deepen and lengthen what is
+// drawn here, so that no slider and no age moves it.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ namespace sporeprint {
 struct Individual;
 
 /// Returns the seed of the damage of a species: what befalls it lies elsewhere on another species of
-/// the same individual seed. What cuts the mesh or adds solids to it (bites, splits, peeled strips,
-/// drops) takes the seed of the individual instead, since a mesh has vertices for one set of them.
+/// the same individual seed. Drops of water alone take the seed of the individual: a mesh has
+/// vertices for one set of them.
 ///
 /// stream  of the species: stream_of() its id
 [[nodiscard]] std::uint32_t damage_seed(std::uint32_t individual, std::uint32_t stream);
@@ -144,7 +144,7 @@ struct Tongue {
 /// end: 0 along the margin, 1/4 straight inwards.
 [[nodiscard]] double tongue_ragged(const Tongue& tongue, double turn);
 
-/// Returns the peeled strips of an individual.
+/// Returns the peeled strips of a species of an individual.
 [[nodiscard]] std::vector<Tongue> tongues(std::uint32_t seed);
 
 /// A point of a crack on the young face in polar projection: the distance from the pole in lengths

@@ -66,11 +66,20 @@ struct GroundLayer {
     bool operator==(const GroundLayer&) const = default;
 };
 
+/// What cuts and peels the margin of one species: amounts times its weight, and which kinds can
+/// occur at any age.
+struct MarginDamage {
+    std::uint32_t stream = 0;  ///< of the species in random streams
+    double bites = 0.0, splits = 0.0, peel = 0.0;
+    bool can_bite = false, can_split = false, can_peel = false;
+};
+
 /// Damage by weathering for geometry: amounts times the weight of the species that can have them,
 /// and which kinds can occur at any age, so that no age changes the number of vertices.
 struct DamageAmounts {
     WeatheringOf<Plain> amounts;
-    double clubs = 0.0;  ///< weight of the species without a margin
+    std::vector<MarginDamage> margins;  ///< one per species, in the order of `parts`
+    double clubs = 0.0;                 ///< weight of the species without a margin
     bool bites = false, splits = false, melts = false, peels = false, dew = false;
 
     /// Returns true if any amount is not zero.

@@ -117,15 +117,19 @@ DamageAmounts damage_amounts_of(const std::vector<Source>& sources,
                                 const WeatheringOf<Maybe>& requested) {
     using Amount = double WeatheringOf<Plain>::*;
     DamageAmounts damage;
+    const auto possible = [](const Source& source, Amount amount,
+                             const std::optional<double>& wanted) {
+        return (wanted && *wanted > 0.0) ||
+               std::any_of(source.stages.begin(), source.stages.end(),
+                           [&](const Model* stage) { return stage->weathering.*amount > 0.0; });
+    };
     const auto lay = [&](Amount amount, const std::optional<double>& wanted, auto able) {
         bool can = false;
         double& sum = damage.amounts.*amount;
         for (const Source& source : sources) {
             if (!able(source)) continue;
             sum += source.weight * (source.now.weathering.*amount);
-            can = can || (wanted && *wanted > 0.0) ||
-                  std::any_of(source.stages.begin(), source.stages.end(),
-                              [&](const Model* stage) { return stage->weathering.*amount > 0.0; });
+            can = can || possible(source, amount, wanted);
         }
         return can;
     };
@@ -142,6 +146,17 @@ DamageAmounts damage_amounts_of(const std::vector<Source>& sources,
         lay(&W::deliquescence, requested.deliquescence, [](const Source& s) { return s.melts(); });
     damage.peels = lay(&W::peel, requested.peel, [](const Source& s) { return s.peels(); });
     damage.dew = lay(&W::dew, requested.dew, all);
+    for (const Source& source : sources) {
+        const W& now = source.now.weathering;
+        MarginDamage& own = damage.margins.emplace_back();
+        own.stream = stream_of(source.id);
+        own.can_bite = possible(source, &W::bites, requested.bites);
+        own.can_split = margin(source) && possible(source, &W::splits, requested.splits);
+        own.can_peel = source.peels() && possible(source, &W::peel, requested.peel);
+        if (own.can_bite) own.bites = source.weight * now.bites;
+        if (own.can_split) own.splits = source.weight * now.splits;
+        if (own.can_peel) own.peel = source.weight * now.peel;
+    }
     return damage;
 }
 

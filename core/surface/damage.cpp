@@ -101,10 +101,10 @@ class DamagePlanner {
         if (w.bites > 0.0) {
             add_ovals(DamageKind::pit, DamageSpotKind::pit, Part::cap, w.bites);
             add_ovals(DamageKind::pit, DamageSpotKind::pit, Part::stem, w.bites);
-            if (has_margin) add_notches(bites(params_.seed), DamageKind::bite, w.bites);
+            if (has_margin) add_notches(bites(params_.damage_seed), DamageKind::bite, w.bites);
         }
         if (w.splits > 0.0 && has_margin)
-            add_notches(splits(params_.seed), DamageKind::split, w.splits);
+            add_notches(splits(params_.damage_seed), DamageKind::split, w.splits);
         if (w.dew > 0.0) {
             add_ovals(DamageKind::drop, DamageSpotKind::dew, Part::cap, w.dew);
             add_ovals(DamageKind::drop, DamageSpotKind::dew, Part::stem, w.dew);
@@ -337,7 +337,7 @@ class DamagePlanner {
 
     void add_tongues(double amount) {
         const double most = params_.surface.damage.peel_reach;
-        for (const Tongue& tongue : tongues(params_.seed)) {
+        for (const Tongue& tongue : tongues(params_.damage_seed)) {
             const double scale = grown(tongue.onset, amount);
             if (scale <= 0.0 || most <= 0.0) continue;
             add_margin_spot(Part::cap, DamageKind::tongue, tongue.theta,

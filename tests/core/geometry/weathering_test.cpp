@@ -20,6 +20,7 @@
 #include "core/individual/damage.h"
 #include "core/individual/proportion.h"
 #include "core/math/elementary.h"
+#include "core/math/random.h"
 #include "core/mesh/detail.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -194,7 +195,7 @@ TEST(Weathering, ABiteRemovesItsDepthFromCapAndLowerFace) {
     const Individual individual = resolve(order, atlas());
     const MarginCuts cuts(individual, 0);
     const double radius = greatest_radius(individual.outline.cap);
-    for (const Notch& bite : bites(4)) {
+    for (const Notch& bite : bites(damage_seed(4, stream_of("amanita_muscaria")))) {
         EXPECT_NEAR(cuts.depth(bite.theta), bite.depth * radius, 1e-9 + 0.2 * radius * bite.depth);
         EXPECT_LT(cuts.cap(1.0, bite.theta), 1.0);
         EXPECT_LT(cuts.lower(1.0, bite.theta), 1.0);
@@ -211,6 +212,40 @@ TEST(Weathering, ABiteRemovesItsDepthFromCapAndLowerFace) {
             last = cuts.lower(share, bite.theta);
         }
     }
+}
+
+// The species of a mix share the vertices that one alone has, and each is bitten and torn where it is
+// alone.
+TEST(Weathering, CutsOfAMixAreThoseOfEachOfItsSpeciesAlone) {
+    MushroomSpec order = order_of("amanita_muscaria", 0.8, 3);
+    order.params.weathering.splits = 1.0;
+    order.params.weathering.bites = 1.0;
+    const auto cuts_of = [&](const Mix& mix) {
+        order.mix = mix;
+        return MarginCuts(resolve(order, atlas()), 0);
+    };
+    const auto seed_of = [](const char* id) { return damage_seed(3, stream_of(id)); };
+    const MarginCuts one = cuts_of({{"amanita_muscaria"}}), other = cuts_of({{"russula_emetica"}}),
+                     both = cuts_of({{"amanita_muscaria", 500}, {"russula_emetica", 500}});
+    const Notch here = splits(seed_of("amanita_muscaria")).front(),
+                there = splits(seed_of("russula_emetica")).front();
+    EXPECT_GT(std::abs(turn_between(here.theta, there.theta)), here.half_width + there.half_width)
+        << "the same seed tears another species elsewhere";
+    EXPECT_GT(one.depth(here.theta), 0.0);
+    EXPECT_GT(other.depth(there.theta), 0.0);
+    EXPECT_GT(both.depth(here.theta), 0.0);
+    EXPECT_GT(both.depth(there.theta), 0.0);
+    EXPECT_LE(both.inserted_columns().size(), one.inserted_columns().size() + 8);
+}
+
+TEST(Weathering, SpeciesOfAMixShareTheCutsOfALevel) {
+    std::vector<MarginDamage> all(3);
+    all[0].can_split = all[2].can_split = true;
+    std::vector<std::size_t> counts;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        counts.push_back(own_share(7, all, k, &MarginDamage::can_split));
+    EXPECT_EQ(counts, (std::vector<std::size_t>{4, 0, 3}));
+    EXPECT_EQ(own_share(1, all, 2, &MarginDamage::can_split), 0U);
 }
 
 TEST(Weathering, AllEvenColumnsExistAndMoreWhereACutNeedsThem) {
@@ -263,10 +298,15 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
         Individual individual = resolve(order, atlas());
         if (individual.outline.hymenium.empty()) continue;
         individual.azimuth.base = 0.0;  // it would bend the chords
-        individual.damage.bites = individual.damage.splits = false;
+        const auto allow = [&individual](bool cut) {
+            individual.damage.bites = individual.damage.splits = cut;
+            for (MarginDamage& species : individual.damage.margins)
+                species.can_bite = species.can_split = cut;
+        };
+        allow(false);
         const Mesh clean = mushroom_mesh(order, individual);
         const Budget offered = budget_of(individual, lod);
-        individual.damage.bites = individual.damage.splits = true;
+        allow(true);
         const Mesh worn = mushroom_mesh(order, individual);
         SCOPED_TRACE(id + " lod " + std::to_string(lod));
         expect_valid(worn);
