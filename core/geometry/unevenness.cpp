@@ -18,9 +18,13 @@ constexpr double beside = 0.06;
 constexpr std::array<double, 4> of_sides{0.05, 0.066, 0.035, 0.02};
 constexpr std::array<double, 3> of_lifts{0.03, 0.05, 0.035};
 /// Of the winding, in lengths of the stem and, at most, in radii.
-constexpr std::array<double, 2> of_winding{0.016, 0.008};
-constexpr double most_winding = 0.6;
-constexpr std::array<double, 2> of_swelling{0.1, 0.06};
+constexpr std::array<double, 4> of_winding{0.016, 0.009, 0.004, 0.0025};
+constexpr std::array<double, 4> most_winding{0.55, 0.45, 0.1, 0.07};
+constexpr std::array<double, 4> of_swelling{0.1, 0.07, 0.045, 0.035};
+/// Of the cross section of the stem: the part that is the same all along it, and that of its waves.
+constexpr std::array<double, 2> of_ovals{0.05, 0.03}, of_oval_waves{0.075, 0.05};
+/// How often the cross section changes along the stem, in waves.
+constexpr std::array<double, 2> oval_waves{1.3, 2.1};
 /// Least height over which the margin lifts, in greatest radii.
 constexpr double least_rise = 0.35;
 
@@ -120,6 +124,7 @@ Unevenness::Unevenness(const Individual& individual) {
     base_ = individual.stem_base;
     length_ = std::max(cap.low - base_, 0.0);
     const double stem_radius = greatest_radius(outline.stem);
+    stem_radius_ = length_ > 0.0 ? stem_radius : 0.0;
     const double slender = length_ < stem_radius ? length_ / stem_radius : 1.0;
     for (const SpeciesShare& part : individual.parts) {
         Random random(individual.effective.seed, purposes::unevenness, stream_of(part.id));
@@ -128,11 +133,16 @@ Unevenness::Unevenness(const Individual& individual) {
         for (std::size_t i = 0; i < lifts; ++i) lifts_[i] += share * drawn(random, of_lifts[i]);
         for (std::size_t i = 0; i < waves; ++i) {
             winding_[i] += share * drawn(random, std::min(of_winding[i] * length_,
-                                                          most_winding * stem_radius));
+                                                          most_winding[i] * stem_radius));
             // On a stem shorter than it is wide, swellings would turn the face inside out.
             swelling_[i] += share * of_swelling[i] * random.uniform(0.4, 1.0) * slender;
         }
-        // In a stream of its own: how many draws an outline takes changes nothing else.
+        // In streams of their own: how many draws an outline takes changes nothing else.
+        Random of_section(individual.effective.seed, purposes::unevenness, stream_of(part.id) + 2);
+        for (std::size_t i = 0; i < ovals; ++i) {
+            oval_[i] += share * slender * drawn(of_section, of_ovals[i]);
+            oval_wave_[i] += share * slender * drawn(of_section, of_oval_waves[i]);
+        }
         Random of_outline(individual.effective.seed, purposes::unevenness, stream_of(part.id) + 1);
         const Sides own = drawn_sides(of_outline);
         for (std::size_t i = 0; i < sides; ++i) sides_[i] += share * own[i];
@@ -142,6 +152,7 @@ Unevenness::Unevenness(const Individual& individual) {
         winding_from_[i] = random.uniform(0.0, 2.0 * pi);
         swelling_from_[i] = random.uniform(0.0, 2.0 * pi);
     }
+    for (double& from : oval_from_) from = random.uniform(0.0, 2.0 * pi);
 }
 
 Unevenness::Level Unevenness::level_at(double y) const {
@@ -169,9 +180,40 @@ Unevenness::Level Unevenness::level_at(double y) const {
         level.widening_by +=
             (window_by * swell.cosine - window * turns * swell.sine) * swelling_[i];
     }
+    // The cross section is that of the whole stem almost to its ends.
+    const double off = 2.0 * along - 1.0, cube = off * off * off;
+    const double inside = 1.0 - cube * off;
+    const double flat = inside * inside, flat_by = -16.0 * inside * cube;
+    for (std::size_t i = 0; i < ovals; ++i) {
+        const double turns = 2.0 * pi * oval_waves[i];
+        const auto wave = sine_cosine(turns * along + oval_from_[i]);
+        const glm::dvec2 oval = oval_[i] + wave.cosine * oval_wave_[i];
+        level.oval[i] = flat * oval;
+        level.oval_by[i] = (flat_by * oval - flat * turns * wave.sine * oval_wave_[i]) / length_;
+    }
     level.shift_by /= length_;
     level.widening_by /= length_;
     return level;
+}
+
+Unevenness::Section Unevenness::section_at(const Level& level, const glm::dvec2& w) const {
+    Section section;
+    if (!(stem_radius_ > 0.0)) return section;
+    constexpr double far = 16.0;
+    const glm::dvec2 u = w / stem_radius_, conjugate(u.x, -u.y);
+    const double square = glm::dot(u, u);
+    const double phi = 1.0 / (1.0 + square * square / far);
+    const double phi_by = -2.0 * square / far * phi * phi;
+    const glm::dvec2 second = product(conjugate, conjugate);
+    const auto sum = [&](const std::array<glm::dvec2, ovals>& of) {
+        return product(of[0], conjugate) + product(of[1], second);
+    };
+    const glm::dvec2 deviation = sum(level.oval);
+    section.shift = stem_radius_ * phi * deviation;
+    section.by_height = stem_radius_ * phi * sum(level.oval_by);
+    section.turn = phi * (level.oval[0] + 2.0 * product(level.oval[1], conjugate));
+    section.fall = 2.0 * phi_by * deviation / stem_radius_;
+    return section;
 }
 
 template <class Directions>
@@ -179,7 +221,8 @@ void Unevenness::move(glm::dvec3& position, Directions&& each_direction) const {
     const Level level = level_at(position.y);
     const glm::dvec2 w(position.x, position.z);
     const double scale = 1.0 / radius_;
-    glm::dvec2 q = (w * level.widening + level.shift) * scale;
+    const Section section = section_at(level, w);
+    glm::dvec2 q = (w * level.widening + level.shift + section.shift) * scale;
     const double beyond = std::max(glm::length(q) / farthest, 1.0);
     q /= beyond;
     const glm::dvec2 conjugate(q.x, -q.y);
@@ -193,8 +236,11 @@ void Unevenness::move(glm::dvec3& position, Directions&& each_direction) const {
     for (std::size_t i = 0; i < lifts; ++i) rise += turned(far[i], lifts_[i]).x;
     each_direction([&](glm::dvec3& direction) {
         const glm::dvec2 across(direction.x, direction.z);
+        const glm::dvec2 across_conjugate(across.x, -across.y);
         const glm::dvec2 dq =
-            (across * level.widening + direction.y * (w * level.widening_by + level.shift_by)) *
+            (across * level.widening + product(section.turn, across_conjugate) +
+             section.fall * glm::dot(w, across) +
+             direction.y * (w * level.widening_by + level.shift_by + section.by_height)) *
             scale;
         const glm::dvec2 dq_conjugate(dq.x, -dq.y);
         glm::dvec2 turn = sides_[0];
@@ -234,6 +280,8 @@ double Unevenness::reach_of_stem(double radius) const {
         swell += swelling_[i];
         wind += glm::length(winding_[i]);
     }
+    for (std::size_t i = 0; i < ovals; ++i)
+        wind += stem_radius_ * (glm::length(oval_[i]) + glm::length(oval_wave_[i]));
     const double q = (radius * swell + wind) / radius_;
     double reach = q + q * q * glm::length(beside_), power = q;
     for (const glm::dvec2& side : sides_) {

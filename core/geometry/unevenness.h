@@ -18,7 +18,9 @@ namespace sporeprint {
 ///
 /// Let w = x + iz be the place across the axis, R the greatest radius of the outline and q = w / R.
 /// Between the ground and the lowest point of the cap the stem winds and swells: w' = w (1 + S(y)) +
-/// K(y). Then q' = q + c1 |q|^2 + sum over n = 2..5 of cn conj(q)^(n - 1), which adds cn cos(n
+/// K(y) + r phi(|u|^2) (a2(y) conj(u) + a3(y) conj(u)^2), where r is the greatest radius of the stem
+/// and u = w / r: its cross section is an oval with a flat side that turns along it. phi(s) = 1 / (1 +
+/// s^2 / 16) leaves a wide ring or volva alone. Then q' = q + c1 |q|^2 + sum over n = 2..5 of cn conj(q)^(n - 1), which adds cn cos(n
 /// theta) to a circle of radius 1 in first order: c1 moves it beside the axis, c2 makes it oval, the
 /// others give it n sides. Coefficients are chosen so that the outline has no corners: the sum of
 /// (n^2 - 1) cn cos(n theta), by which its curvature differs from 1 in first order, is at most 0.7,
@@ -48,15 +50,25 @@ class Unevenness {
   private:
     static constexpr std::size_t sides = 4;  ///< n = 2..5
     static constexpr std::size_t lifts = 3;  ///< powers of q
-    static constexpr std::size_t waves = 2;  ///< of the stem
+    static constexpr std::size_t waves = 4;  ///< of the stem
+    static constexpr std::size_t ovals = 2;  ///< powers of conj(u)
 
     /// The terms of all maps that depend on the height alone, with derivatives by height.
     struct Level {
         double widening = 1.0, widening_by = 0.0;
-        glm::dvec2 shift{0.0}, shift_by{0.0};  ///< metres
-        double lift = 0.0, lift_by = 0.0;      ///< h
+        glm::dvec2 shift{0.0}, shift_by{0.0};             ///< metres
+        std::array<glm::dvec2, ovals> oval{}, oval_by{};  ///< a2 and a3
+        double lift = 0.0, lift_by = 0.0;                 ///< h
     };
     [[nodiscard]] Level level_at(double y) const;
+    /// The deviation of the stem's cross section from a circle, metres, and its derivatives.
+    struct Section {
+        glm::dvec2 shift{0.0};  ///< r phi (a2 conj(u) + a3 conj(u)^2)
+        glm::dvec2 by_height{0.0};
+        glm::dvec2 turn{0.0};  ///< factor on the conjugate of a step of w
+        glm::dvec2 fall{0.0};  ///< factor on the product of w and a step of it
+    };
+    [[nodiscard]] Section section_at(const Level& level, const glm::dvec2& w) const;
     template <class Directions>
     void move(glm::dvec3& position, Directions&& each_direction) const;
 
@@ -69,6 +81,9 @@ class Unevenness {
     std::array<glm::dvec2, lifts> lifts_{};
     std::array<glm::dvec2, waves> winding_{};  ///< metres
     std::array<double, waves> winding_from_{}, swelling_{}, swelling_from_{};
+    double stem_radius_ = 0.0;  ///< r, metres; 0 without a stem
+    std::array<glm::dvec2, ovals> oval_{}, oval_wave_{};
+    std::array<double, ovals> oval_from_{};
 };
 
 }  // namespace sporeprint
