@@ -174,13 +174,15 @@ HWY_INLINE void add_grains(const StemPlan& plan, std::size_t size, VF turn, VF l
                                       plan.seed[9 + size]);
         const VU lot = hash(cell.id);
         const VF chance = upper_part(lot) * set(0.5F) + set(0.5F);
-        const VF radius = (set(0.42F) + lower_part(lot) * set(0.20F)) *
+        // Most grains are small.
+        const VF large = lower_part(lot) * lower_part(lot);
+        const VF radius = (set(0.16F) + large * set(0.46F)) *
                           smooth(density - chance, 0.0F, 1.0F / 0.3F);
         // Grains are angular, and neighbours press against each other.
         const int cells = static_cast<int>(n) * 3;
         const VF uneven = periodic_noise2(turn * set(n * 3.0F), length * set(n * 3.0F), cells,
                                           plan.seed[9 + size] + 1U);
-        const VF far = cell.centre / hn::Max(radius, set(1e-3F)) + uneven * set(0.30F);
+        const VF far = cell.centre / hn::Max(radius, set(1e-3F)) + uneven * set(0.42F);
         const VF inside = hn::Min(hn::Min(one - far, cell.border * set(6.0F)), radius * set(40.0F));
         const VF whole = smooth(inside, 0.0F, 4.5F);
         cover = mix(cover, whole, set(seen));
