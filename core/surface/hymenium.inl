@@ -299,6 +299,16 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
                 mix(texel.colour, rgb(plan.depth), unit(cloud * set(0.7F * plan.mottle)));
         add_slots(plan, p, share, texel);
     }
+    // Where the face bends into the stem, it is the flesh of the stem, whose skin runs out in it
+    // unevenly.
+    if (plan.joined > 0.0F) {
+        const VF stem = (one - smooth(share + fields[hymenium_uneven] * set(0.02F) +
+                                          middle * set(0.02F),
+                                      0.035F, 1.0F / 0.075F)) *
+                        set(plan.joined);
+        texel.colour = mix(texel.colour, rgb(plan.stem), stem);
+        texel.occlusion = mix(texel.occlusion, one, stem * set(0.25F));
+    }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);
     Texel out;
     out.colour = shaded(texel.colour, hn::Max(shade * texel.shade, set(0.05F)));

@@ -242,6 +242,9 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << hymenium_bump;
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
+    const Light stem = light_of(params.surface.stem.top), tint = stem_tint(params);
+    plan.stem = {stem.r * tint.r, stem.g * tint.g, stem.b * tint.b};
+    plan.joined = face.pattern == HymeniumPattern::smooth ? 0.0F : 1.0F;
     plan.mottle = single(face.mottle);
     plan.felt = single(face.felt);
     plan.cracks = single(face.cracks);

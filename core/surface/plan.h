@@ -178,6 +178,8 @@ struct HymeniumPlan {
     std::array<std::uint32_t, 8> seed{};
     int pattern = 0;
     Light colour, edge, depth;
+    Light stem;           ///< colour of the stem's top
+    float joined = 0.0F;  ///< 1: the face takes on that colour where it meets the stem
     float mottle = 0.0F;
     float roughness = 0.8F;
     float relief = 0.0F;
