@@ -41,6 +41,11 @@ constexpr double patch_depth = 0.25;
 /// less deep it lies, and the power by which the rings between base and tip move down to it.
 constexpr double skirt_width = 0.35, skirt_rise = 0.5, skirt_power = 0.5;
 
+/// A scale is a flap of torn skin: it passes into the skin at its upper end, and `lift` 1 raises its
+/// lower end so far, in radii, and thins it there by such a share. Its lower corners are torn: how much
+/// nearer or farther they lie.
+constexpr double flap_rise = 0.55, flap_thinning = 0.6, flap_tear = 0.38, flap_narrowing = 0.3;
+
 SolidGrid patch_grid(const Detail& detail) {
     return {detail.patch_rings + 2, detail.patch_sides, false};
 }
@@ -156,14 +161,30 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
         across = crumb_stray * random.symmetric();
         up = crumb_rise * random.symmetric();
     }
-    const double crumbled = layer.purpose == purposes::scales ? 0.0 : 1.0 - pointed;
+    const bool is_scale = layer.purpose == purposes::scales;
+    const double crumbled = is_scale ? 0.0 : 1.0 - pointed;
+    const double flap = is_scale ? std::max(style.lift, 0.0) : 0.0;
     std::array<glm::dvec3, 7> rim{};
+    std::array<double, 7> lower{};  // how far a corner lies towards the margin, -1..1
     for (int j = 0; j < sides; ++j) {
+        const auto side = static_cast<std::size_t>(j);
         const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
-        rim[static_cast<std::size_t>(j)] =
-            wider * radius * reach[static_cast<std::size_t>(j * 7 / sides)] *
-            (turn.cosine * frame.round + turn.sine * style.elongation * frame.outward);
+        lower[side] = turn.sine;
+        const double torn = flap * flap_tear / crumb_stray * stray[side][0];
+        const double below = std::max(turn.sine, 0.0);
+        rim[side] =
+            wider * radius * reach[static_cast<std::size_t>(j * 7 / sides)] * (1.0 + torn * below) *
+            ((1.0 - flap * flap_narrowing * std::max(-turn.sine, 0.0)) * turn.cosine * frame.round +
+             turn.sine * style.elongation * frame.outward);
     }
+    // How high a place of a flap lies, in radii, and how thick it is there, relative to a cushion.
+    const auto raised = [&](double down) {
+        const double share = std::clamp(0.5 * (1.0 + down), 0.0, 1.25);
+        return flap * flap_rise * share * share;
+    };
+    const auto thickness = [&](double down) {
+        return 1.0 - flap * flap_thinning * std::clamp(0.5 * (1.0 + down), 0.0, 1.0);
+    };
     const glm::dvec3 tip =
         radius * (tip_round * frame.round + tip_outward * style.elongation * frame.outward);
     for (int i = 0; i < solid.rows; ++i) {
@@ -179,8 +200,11 @@ void build_patch(GridSolid& solid, const Patch& patch, const PatchLayer& layer, 
             const auto side = static_cast<std::size_t>(j);
             const auto [across, upwards] =
                 stray[7 * ring + side * 7 / static_cast<std::size_t>(sides)];
-            const double rise = i == 0 ? (skirt_rise * skirt - 1.0) * patch_depth * radius
-                                       : height * (risen + crumb * upwards * up);
+            const double down = up * tip_outward + narrowing * lower[side];
+            const double rise =
+                radius * raised(down) +
+                thickness(down) * (i == 0 ? (skirt_rise * skirt - 1.0) * patch_depth * radius
+                                          : height * (risen + crumb * upwards * up));
             solid.corners.push_back(frame.centre + up * tip + rise * frame.normal +
                                     narrowing * (1.0 + crumb * across) * rim[side]);
         }
