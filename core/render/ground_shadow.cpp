@@ -64,9 +64,10 @@ float GroundShadow::Falling::light_at(const glm::vec3& at, bool is_sharp) const 
     return sum;
 }
 
-GroundShadow::GroundShadow(const Bounds& box, const Falling& lamps, const Falling& sky,
-                           const Parallel& parallel) {
-    const float height = std::max(box.max.y, 0.0F);
+GroundShadow::GroundShadow(const Bounds& box, float level, const Falling& lamps, const Falling& sky,
+                           const Parallel& parallel)
+    : level_(level) {
+    const float height = std::max(box.max.y - level, 0.0F);
     const float reach =
         1.5F * height + 0.2F * std::max(box.max.x - box.min.x, box.max.z - box.min.z);
     from_ = glm::vec2(box.min.x - reach, box.min.z - reach);
@@ -80,7 +81,7 @@ GroundShadow::GroundShadow(const Bounds& box, const Falling& lamps, const Fallin
         tasks.emplace_back([&, row] {
             for (int column = 0; column < side; ++column) {
                 const auto cell = static_cast<std::size_t>(row * side + column);
-                const glm::vec3 at(from_.x + step_.x * static_cast<float>(column), 0.0F,
+                const glm::vec3 at(from_.x + step_.x * static_cast<float>(column), level,
                                    from_.y + step_.y * static_cast<float>(row));
                 of_lamps[cell] = lamps.light_at(at, true);
                 of_sky[cell] = sky.light_at(at, false);

@@ -1,4 +1,4 @@
-// The shadow of a scene on the ground, the plane y = 0.
+// The shadow of a scene on the ground, a level plane.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace sporeprint::render {
 
-/// The shadow of a scene on the plane y = 0, as darkness 0..1 on a grid around it.
+/// The shadow of a scene on a level plane, as darkness 0..1 on a grid around it.
 class GroundShadow {
   public:
     /// Lights and their shadows; those that come from below do not count.
@@ -30,9 +30,13 @@ class GroundShadow {
 
     /// Finds the shadows of lamps, whose edges are seen, and of the sky, which has none.
     ///
-    /// box  of the scene
-    GroundShadow(const Bounds& box, const Falling& lamps, const Falling& sky,
+    /// box    of the scene
+    /// level  height of the ground
+    GroundShadow(const Bounds& box, float level, const Falling& lamps, const Falling& sky,
                  const Parallel& parallel);
+
+    /// Returns the height of the ground.
+    [[nodiscard]] float level() const { return level_; }
 
     /// Returns true if there is no ground.
     [[nodiscard]] bool empty() const { return darkness_.empty(); }
@@ -42,6 +46,7 @@ class GroundShadow {
 
   private:
     static constexpr int side = 72;
+    float level_ = 0.0F;
     glm::vec2 from_{0.0F}, step_{1.0F};
     std::vector<float> darkness_;
 };

@@ -259,9 +259,9 @@ struct Pixel {
 /// Draws one view of a scene.
 class Drawing {
   public:
-    /// has_ground  the plane y = 0 hides what is below it and shows the shadow
+    /// ground  height of the plane that hides what is below it and shows the shadow, if there is one
     Drawing(const DrawList& list, const Camera& camera, const PictureParams& params,
-            bool has_ground, const Parallel& parallel)
+            const std::optional<float>& ground, const Parallel& parallel)
         : list_(list),
           camera_(camera),
           params_(params),
@@ -273,8 +273,8 @@ class Drawing {
               visible(list, camera, params.width * samples, params.height * samples, parallel)),
           scale_(glm::vec2(params.width, params.height) * 0.5F /
                  glm::vec2(camera.tangent_x, camera.tangent_y)) {
-        if (has_ground)
-            ground_ = GroundShadow(list.box, {lights_.lamps, lamp_shadows_},
+        if (ground)
+            ground_ = GroundShadow(list.box, *ground, {lights_.lamps, lamp_shadows_},
                                    {lights_.surroundings, shadows_}, parallel);
     }
 
@@ -321,7 +321,7 @@ class Drawing {
     /// Returns the darkness of the ground in a direction; 0 above the horizon.
     [[nodiscard]] float shadow(const glm::vec3& direction) const {
         if (ground_.empty() || direction.y >= 0.0F) return 0.0F;
-        const float distance = -camera_.position.y / direction.y;
+        const float distance = (ground_.level() - camera_.position.y) / direction.y;
         return distance > 0.0F ? ground_.at(camera_.position + direction * distance) : 0.0F;
     }
 
@@ -330,7 +330,7 @@ class Drawing {
     [[nodiscard]] std::optional<glm::vec3> light(const Facet& facet, const glm::vec3& ray,
                                                  const Lamps& lamps, std::size_t group) const {
         const glm::vec3 weights = facet.weights(ray);
-        if (!ground_.empty() && facet.point(weights).y < 0.0F) return std::nullopt;
+        if (!ground_.empty() && facet.point(weights).y < ground_.level()) return std::nullopt;
         const glm::vec3 direction = camera_.in_scene(ray);
         const float length = std::sqrt(glm::dot(direction, direction));
         return reflected(facet.surface(weights, direction * (-1.0F / length),
@@ -449,6 +449,23 @@ std::vector<Camera> cameras_of(const DrawList& list, const PictureParams& params
     return fitted_cameras(list, axes, aspect, lowest);
 }
 
+/// Returns the height of the ground of a picture, if it has one.
+std::optional<float> ground_of(const DrawList& list, const PictureParams& params) {
+    if (params.view == View::below || params.view == View::underside) return std::nullopt;
+    if (list.stands_on_ground) {
+        // The greater part of it is above the ground: roots that reach far below are to be seen, a
+        // clod of soil is not.
+        constexpr float deepest_clod = 2.2F;  // in heights above the ground
+        if (list.box.min.y <= -deepest_clod * list.box.max.y) return std::nullopt;
+        return 0.0F;
+    }
+    // A piece of wood with a bracket lies on its lower end.
+    const bool has_wood = std::any_of(list.draws.begin(), list.draws.end(), [](const Draw& draw) {
+        return draw.role == GlbRole::carrier;
+    });
+    return has_wood ? std::optional(list.box.min.y) : std::nullopt;
+}
+
 }  // namespace
 }  // namespace render
 
@@ -474,18 +491,12 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
     RgbaImage image{params.width * columns, params.height * rows, {}};
     image.rgba.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height) * 4);
-    // Of what stands on the ground, the greater part is above it: roots that reach far below are to be
-    // seen, a clod of soil is not.
-    constexpr float deepest_clod = 2.2F;  // in heights above the ground
-    const bool has_ground = scene.stands_on_ground && params.view != View::below &&
-                            params.view != View::underside &&
-                            list.box.min.y > -deepest_clod * list.box.max.y;
+    const std::optional<float> ground = render::ground_of(list, params);
     const std::vector<render::Camera> cameras =
-        render::cameras_of(list, params, columns * rows, has_ground ? 0.0F : list.box.min.y);
+        render::cameras_of(list, params, columns * rows, ground.value_or(list.box.min.y));
     const SrgbTable& srgb = srgb_table();
     for (int frame = 0; frame < columns * rows; ++frame)
-        render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,
-                        parallel)
+        render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, ground, parallel)
             .draw(image, frame % columns * params.width, frame / columns * params.height, srgb,
                   parallel);
     return image;

@@ -27,8 +27,9 @@ inline constexpr std::uint64_t most_pictured_triangles = 4'000'000;
 [[nodiscard]] std::size_t pictured_lights(const PictureParams& params, std::uint64_t triangles);
 
 /// Draws a scene. Its images are those that it embeds; linked ones are white. The ground, y = 0,
-/// shows the shadow alone, and hides what is below it, except from below, where more than two fifths
-/// of the height are below it, and for a scene that does not stand on it.
+/// shows the shadow alone, and hides what is below it, except from below and where more than two
+/// thirds of the height are below it. A scene that does not stand on it has one below its wood, if it
+/// has wood.
 ///
 /// params    valid
 /// returns   the picture, for a turntable the sheet of all views

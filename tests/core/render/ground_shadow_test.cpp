@@ -17,7 +17,7 @@ struct Shadow {
     StudioLights lights = studio_lights(camera_axes(30, 18), 1);
     std::vector<ShadowMap> lamps = shadow_maps(list, lights.lamps, 128, in_turn),
                            sky = shadow_maps(list, lights.surroundings, 128, in_turn);
-    GroundShadow ground{list.box, {lights.lamps, lamps}, {lights.surroundings, sky}, in_turn};
+    GroundShadow ground{list.box, 0.0F, {lights.lamps, lamps}, {lights.surroundings, sky}, in_turn};
 };
 
 TEST(GroundShadow, ItIsDarkUnderTheSceneAndFadesWithDistance) {
@@ -27,6 +27,21 @@ TEST(GroundShadow, ItIsDarkUnderTheSceneAndFadesWithDistance) {
     EXPECT_LT(shadow.ground.at({0.2F, 0.0F, 0.0F}), 0.2F);
     EXPECT_EQ(shadow.ground.at({9.0F, 0.0F, 0.0F}), 0.0F);
     EXPECT_TRUE(GroundShadow().empty());
+}
+
+TEST(GroundShadow, ItIsTheSameOnAGroundAtAnotherHeight) {
+    const Mesh mesh = ball(0.05F, {0.0F, -0.15F, 0.0F});
+    const GlbScene scene = scene_of(mesh);
+    const DrawList list = draw_list(scene, in_turn);
+    const Shadow shadow;
+    const std::vector<ShadowMap> lamps = shadow_maps(list, shadow.lights.lamps, 128, in_turn),
+                                 sky = shadow_maps(list, shadow.lights.surroundings, 128, in_turn);
+    const GroundShadow lower(list.box, -0.2F, {shadow.lights.lamps, lamps},
+                             {shadow.lights.surroundings, sky}, in_turn);
+    EXPECT_EQ(lower.level(), -0.2F);
+    for (const glm::vec3& at :
+         {glm::vec3(0.0F), glm::vec3(0.06F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, -0.1F)})
+        EXPECT_NEAR(lower.at(at), shadow.ground.at(at), 0.02F);
 }
 
 TEST(GroundShadow, ItFallsAwayFromTheLamp) {
