@@ -94,7 +94,47 @@ NoiseSample noise_sample(const std::array<double, 3>& at, std::uint32_t seed) {
     return noise;
 }
 
-PitSample pit_sample(const ReliefStyle& style, double turn, double row, std::uint32_t seed) {
+namespace {
+
+/// Returns the cubic approximation of a cosine of period 1 that core/surface/texel.inl has, and its
+/// derivative.
+Step wave_at(double t) {
+    const double within = t - std::floor(t) - 0.5;
+    const double u = 2.0 * std::abs(within);
+    return {u * u * (6.0 - 4.0 * u) - 1.0, (within < 0.0 ? -24.0 : 24.0) * u * (1.0 - u)};
+}
+
+/// A place in the lattice of pits and its derivatives.
+struct BentPlace {
+    double turn, row;
+    double turn_by_turn = 1.0, turn_by_row = 0.0, row_by_turn = 0.0, row_by_row = 1.0;
+};
+
+BentPlace bent(const ReliefStyle& style, double turn, double row, std::uint32_t seed) {
+    BentPlace place{turn, row};
+    const double waves = pit_bend_waves(style.pit_columns), pit = 1.0 / style.pit_columns;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const PitBend& across = pit_bends_across[i];
+        const double round = across.round * waves;
+        const Step up = wave_at(round * turn + across.down * row + pit_bend_phase(seed, i));
+        place.row += across.height * up.value;
+        place.row_by_turn += across.height * round * up.slope;
+        place.row_by_row += across.height * across.down * up.slope;
+        const PitBend& along = pit_bends_along[i];
+        const Step aside =
+            wave_at(along.round * turn + along.down * row + pit_bend_phase(seed, 2 + i));
+        place.turn += along.height * pit * aside.value;
+        place.turn_by_turn += along.height * pit * along.round * aside.slope;
+        place.turn_by_row += along.height * pit * along.down * aside.slope;
+    }
+    return place;
+}
+
+}  // namespace
+
+PitSample pit_sample(const ReliefStyle& style, double turn_at, double row_at, std::uint32_t seed) {
+    const BentPlace place = bent(style, turn_at, row_at, seed);
+    const double turn = place.turn, row = place.row;
     struct Point {
         double x, y, columns;
         std::uint32_t id;
@@ -143,6 +183,9 @@ PitSample pit_sample(const ReliefStyle& style, double turn, double row, std::uin
         sample.by_turn = (point.x * px - near.x * nx) / root - border * ex * ex_by / apart;
         sample.by_row = -ey / root;
     }
+    const double by_turn = sample.by_turn, by_row = sample.by_row;
+    sample.by_turn = by_turn * place.turn_by_turn + by_row * place.row_by_turn;
+    sample.by_row = by_turn * place.turn_by_row + by_row * place.row_by_row;
     return sample;
 }
 

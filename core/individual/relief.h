@@ -2,6 +2,7 @@
 // fade intervals.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -26,6 +27,26 @@ inline constexpr double pit_first = 0.25, pit_rise = 1.5;
 /// the middle of its cell; pit_slope: width of the slope from the rib to the floor of a pit;
 /// pit_rib: half width of the flat top of a rib at ReliefStyle::rib = 1, 0 at rib = 0.
 inline constexpr double pit_jitter = 0.38, pit_slope = 0.36, pit_rib = 0.2;
+
+/// Ribs between pits are bent: places in their lattice move along the rows and across them by waves of
+/// this height, in cells. A wave runs by `round` turns for each turn and by `down` for each row; those
+/// across rows also by a turn for every pit_bend_length pits. Its phase is a byte of the seed.
+struct PitBend {
+    double height, round, down;
+};
+inline constexpr double pit_bend_length = 1.7;
+inline constexpr std::array<PitBend, 2> pit_bends_across = {{{0.1, 1.0, 0.31}, {0.05, 2.0, -0.77}}};
+inline constexpr std::array<PitBend, 2> pit_bends_along = {{{0.1, 2.0, 0.59}, {0.05, -3.0, 1.13}}};
+
+/// Returns how many waves across rows there are in a turn, for a factor of 1.
+[[nodiscard]] constexpr int pit_bend_waves(int pit_columns) {
+    return std::max(static_cast<int>(pit_columns / pit_bend_length + 0.5), 1);
+}
+
+/// Returns the phase of a wave, 0..1: those across rows are waves 0 and 1, those along them 2 and 3.
+[[nodiscard]] constexpr double pit_bend_phase(std::uint32_t seed, std::uint32_t wave) {
+    return (seed >> (8U * wave) & 255U) / 256.0;
+}
 
 /// Mean of the relative depths of pits, 0.7..1.
 inline constexpr double mean_pit = 0.85;

@@ -15,7 +15,21 @@ namespace sporeprint {
 namespace HWY_NAMESPACE {
 
 /// Returns the cell of a texel in a honeycomb with rows across y.
-HWY_INLINE Cells pit_cells(const ReliefPlan& plan, VF turn, VF y) {
+HWY_INLINE Cells pit_cells(const ReliefPlan& plan, VF turn_at, VF y_at) {
+    VF turn = turn_at, y = y_at;
+    const auto waves = static_cast<float>(pit_bend_waves(static_cast<int>(plan.pit_columns)));
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        const PitBend& across = pit_bends_across[i];
+        y = y + wave(turn_at * set(static_cast<float>(across.round) * waves) +
+                     y_at * set(static_cast<float>(across.down)) +
+                     set(static_cast<float>(pit_bend_phase(plan.seed[2], i)))) *
+                    set(static_cast<float>(across.height));
+        const PitBend& along = pit_bends_along[i];
+        turn = turn + wave(turn_at * set(static_cast<float>(along.round)) +
+                           y_at * set(static_cast<float>(along.down)) +
+                           set(static_cast<float>(pit_bend_phase(plan.seed[2], 2 + i)))) *
+                          set(static_cast<float>(along.height) / plan.pit_columns);
+    }
     const VF row = hn::Floor(y);
     Neighbours<9> all;
     all.begin();
