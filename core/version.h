@@ -4,6 +4,6 @@
 namespace sporeprint {
 
 /// It is raised whenever bytes change for an unchanged request.
-inline constexpr int generator_version = 32;
+inline constexpr int generator_version = 33;
 
 }  // namespace sporeprint
