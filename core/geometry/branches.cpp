@@ -9,9 +9,11 @@
 #include <numeric>
 #include <utility>
 
+#include "core/geometry/branch_deformation.h"
 #include "core/geometry/branch_plan.h"
 #include "core/geometry/ground.h"
 #include "core/geometry/joints.h"
+#include "core/geometry/limb_relief.h"
 #include "core/geometry/ruffle.h"
 #include "core/geometry/spines.h"
 #include "core/geometry/tube.h"
@@ -29,10 +31,6 @@ namespace sporeprint {
 namespace {
 
 constexpr std::uint32_t none = BranchGraph::none;
-
-/// Limit of curvature of the bent axis times the reach of the graph: at 1 the segments on the inner
-/// side would meet.
-constexpr double most_fold = 0.75;
 
 /// Exponent by which a tube that represents dropped ones is widened: width is a power of the number
 /// of tips.
@@ -64,7 +62,7 @@ constexpr double inside_parent = 0.97, root_depth = 1.5, most_root_depth = 0.7;
 /// Radius of the first ring of a tube, in that of its beginning, and how far it lies behind that, in
 /// the same: a tube comes out of its parent at a small angle, and the corners of its first polygon
 /// stay inside those of its parent, which may stand elsewhere.
-constexpr double first_ring = 0.8, first_depth = 1.2;
+constexpr double first_ring = 0.8, first_depth = 0.4;
 
 /// Share of its own direction in that in which a tube begins; the rest is that of its parent, which it
 /// leaves in a bow.
@@ -74,24 +72,15 @@ constexpr double fork_turn = 0.45;
 /// where they are much longer than `bend_length` radii; how much farther their second half is on the
 /// one side and their first on the other; how far their thickness deviates between forks, and how
 /// much thicker they are at forks.
-constexpr double gnarl_bend = 1.1, bend_length = 5.0, gnarl_swing = 0.5, gnarl_lumps = 0.24,
+constexpr double gnarl_bend = 1.1, bend_length = 5.0, gnarl_swing = 0.5, gnarl_lumps = 0.35,
                  gnarl_knees = 0.14;
 
-/// How far the colours of branches deviate from those of their place.
-constexpr double colour_drift = 0.55;
+/// How far the colours of branches deviate from those of their place; the distance along a tube over
+/// which they are spread to either side, in its radii.
+constexpr double colour_drift = 0.55, colour_spread = 2.5;
 
 /// Depth of the foot of a trunk under the ground, in its radii.
 constexpr double foot_depth = 0.2;
-
-/// Share of the largest bend that is suggested when a bend is refused.
-constexpr double suggested_bend = 0.97;
-
-/// Dents of a graph for `imperfection` 1: number, least height of their centres, sizes in reaches
-/// and least reach in heights of the graph, distance of their centres from the axis in reaches, and
-/// depth, reach and vertical part of their displacement in sizes.
-constexpr std::uint32_t dent_count = 9;
-constexpr double lowest_dent = 0.35, least_dent = 0.7, most_dent = 1.2, least_reach = 0.3,
-                 dent_distance = 0.7, dent_depth = 0.08, dent_reach = 1.6, dent_slope = 0.7;
 
 /// Size of a spine on a branch that has not begun to grow, in that of others; how far spines stand
 /// beside the middle of their branch, in its radii.
@@ -118,80 +107,14 @@ glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
 /// it, over all directions.
 double polygon_scale(int sides) { return pi / (sides * sine(pi / sides)); }
 
-/// Returns the bent and leaning axis of a branch graph.
-///
-/// throws  Impossible if the graph would be bent through itself
-Axis bent_axis(const BranchGraph& graph, const DeformationOf<Plain>& deformation,
-               const AxisAngles& angles) {
-    Axis axis(AxisCurve(), deformation, angles, 0.0, graph.height);
-    const double fold = axis.greatest_curvature() * graph.reach;
-    if (fold >= most_fold)
-        throw Impossible(
-            "/deformation/bend_deg",
-            number_text(deformation.bend_deg) + " bends this bush through itself; about " +
-                number_text(
-                    std::floor(suggested_bend * most_fold * deformation.bend_deg / fold * 10.0) /
-                    10.0) +
-                " is the most over this zone");
-    return axis;
-}
-
-std::vector<FreeForm> dents_of(const BranchGraph& graph, double imperfection, std::uint32_t seed) {
-    std::vector<FreeForm> dents;
-    if (!(imperfection > 0.0)) return dents;
-    for (std::uint32_t i = 0; i < dent_count; ++i) {
-        Random place(seed, purposes::dents, i);
-        const double angle = place.uniform(0.0, 2.0 * pi), high = place.uniform(lowest_dent, 1.0);
-        const double strength = place.symmetric(), width = place.uniform(least_dent, most_dent);
-        const double down = place.symmetric();
-        const auto [s, c] = sine_cosine(angle);
-        const double size = width * std::max(graph.reach, least_reach * graph.height);
-        const glm::dvec3 out(c, dent_slope * down, s);
-        dents.push_back(dent(glm::dvec3(dent_distance * graph.reach * c, high * graph.height,
-                                        dent_distance * graph.reach * s),
-                             glm::dvec3(dent_reach * size),
-                             dent_depth * imperfection * strength * size * out));
-    }
-    return dents;
-}
-
-/// Returns the branch graph of an individual after deformation.
-BranchGraph deformed(const Individual& individual) {
-    BranchGraph graph = individual.branch_graph;
-    const DeformationOf<Plain>& deformation = individual.model.deformation;
-    const Axis axis = bent_axis(graph, deformation, axis_angles(individual));
-    const std::vector<FreeForm> dents =
-        dents_of(graph, deformation.imperfection, individual.effective.seed);
-    const auto moved = [&](SurfacePoint& point) {
-        for (const FreeForm& one : dents) one.apply(point.position, point.meridian, point.azimuth);
-        const AxisStation station = axis.at(point.position.y);
-        point.meridian = station.direction(point.position, point.meridian);
-        point.azimuth = station.direction(point.position, point.azimuth);
-        point.position = station.point(point.position);
-    };
-    for (BranchGraph::Node& node : graph.nodes) {
-        // Start and end of the segment of this node.
-        SurfacePoint start{node.beside, node.heading, node.across};
-        if (node.parent != none) start.position += individual.branch_graph.nodes[node.parent].place;
-        SurfacePoint end{node.place, node.heading, node.across};
-        moved(start);
-        moved(end);
-        node.heading = unit_or(end.position - start.position, unit_or(end.meridian, node.heading));
-        node.across = square_to(node.heading, end.azimuth);
-        node.beside =
-            node.parent == none ? glm::dvec3(0.0) : start.position - graph.nodes[node.parent].place;
-        node.place = end.position;
-    }
-    return graph;
-}
-
 class TubeBuilder {
   public:
     TubeBuilder(const Individual& individual, DetailLevel level, const SweepOptions& options)
-        : graph_(deformed(individual)),
+        : graph_(deformed_branch_graph(individual)),
           spine_detail_(spine_detail(individual.spines, level)),
           plan_(branch_plan(individual, graph_, level)),
           seed_(individual.effective.seed),
+          relief_seed_(Random(seed_, purposes::segment_turns, none).bits()),
           options_(options),
           represented_(graph_.nodes.size(), 1.0),
           built_(graph_.nodes.size()),
@@ -208,6 +131,7 @@ class TubeBuilder {
         mesh_.indices.reserve(3 * static_cast<std::size_t>(plan_.count.triangles));
         for (const TubeChain& chain : plan_.chains) add_chain(chain);
         blend_joints(mesh_, colours_, tubes_);
+        add_limb_relief(mesh_, tubes_, graph_.gnarl, graph_.trunk_radius, relief_seed_);
         if (options_.textured) {
             add_texture_coordinates();
             add_tangents(mesh_);
@@ -291,11 +215,13 @@ class TubeBuilder {
                               (middle * bend.sine + halves * swing.sine) * third);
     }
 
-    // Returns the factor on the radius of a segment at a share of its way.
-    [[nodiscard]] double lumps_at(std::uint32_t i, double t, double at_fork) const {
+    // Returns the factor on the radius of a segment at a share of its way. A short one has no lump of
+    // its own, which would be a step.
+    [[nodiscard]] double lumps_at(std::uint32_t i, double t, double at_fork, double length) const {
         const BranchGraph::Gnarl& own = node(i).gnarl;
-        return 1.0 + graph_.gnarl * (gnarl_lumps * own.lump * bulge_at(t) +
-                                     gnarl_knees * (1.0 + own.knee) * at_fork);
+        const double lump =
+            gnarl_lumps * own.lump * length / (length + bend_length * node(i).radius + 1e-12);
+        return 1.0 + graph_.gnarl * (lump * bulge_at(t) + gnarl_knees * (1.0 + own.knee) * at_fork);
     }
 
     // For each node, computes how many times more tips its segment represents than it has.
@@ -503,7 +429,7 @@ class TubeBuilder {
             Station s = station_on_path(from, i, arriving, flat, t, at_end, taken);
             s.radius = from.radius + smooth_step(-radius_overlap, 1.0 + radius_overlap, t) * taken *
                                          (radius_at(i) - from.radius);
-            s.radius *= lumps_at(i, t, at_end);
+            s.radius *= lumps_at(i, t, at_end, length);
             stations.push_back(s);
         }
         return stations;
@@ -534,7 +460,7 @@ class TubeBuilder {
             Station s = station_on_path(from, i, arriving, from.flat, t, 0.0, 1.0);
             s.radius = from.radius + t * (tip_radius - from.radius);
             const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
-            s.radius *= (end.eaten + (1.0 - end.eaten) * taper) * lumps_at(i, t, 0.0);
+            s.radius *= (end.eaten + (1.0 - end.eaten) * taper) * lumps_at(i, t, 0.0, length);
             if (rings > 1 && t > 1.0 - round) {
                 const double x = (t - 1.0 + round) / round;
                 s.radius *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
@@ -606,6 +532,7 @@ class TubeBuilder {
             stations[1].radius *= first_ring * (on_trunk ? std::min(graph_.foot, 1.0) : 1.0);
             stations[1].at -= deep * stations[0].along;
         }
+        spread_colours(stations, chain.root ? 0 : 1);
         set_sides(stations, chain.root ? begin.side : node(parent).across);
         if (!chain.root) set_turns(stations, built_[parent], segment_turn(first));
         for (const auto& [end, station] : ends) built_[end] = stations[station];
@@ -778,6 +705,35 @@ class TubeBuilder {
         }
     }
 
+    // Spreads changes of colour along a tube, so that it does not change at once where two forks
+    // follow each other; both ends keep theirs.
+    static void spread_colours(std::vector<Station>& stations, std::size_t first) {
+        std::vector<double> way(stations.size(), 0.0), sum(stations.size(), 0.0);
+        for (std::size_t i = first + 1; i < stations.size(); ++i) {
+            const double step = glm::distance(stations[i].at, stations[i - 1].at);
+            way[i] = way[i - 1] + step;
+            sum[i] = sum[i - 1] + 0.5 * step * (stations[i - 1].colour + stations[i].colour);
+        }
+        // Returns the integral of the colour from the first station to a place on the way.
+        const auto sum_at = [&](double place) {
+            std::size_t i = first + 1;
+            while (i + 1 < stations.size() && way[i] < place) ++i;
+            const double step = way[i] - way[i - 1], on = place - way[i - 1];
+            const double rise = stations[i].colour - stations[i - 1].colour;
+            return sum[i - 1] +
+                   on * (stations[i - 1].colour + (step > 0.0 ? 0.5 * rise * on / step : 0.0));
+        };
+        std::vector<double> spread(stations.size());
+        for (std::size_t i = first; i < stations.size(); ++i) {
+            const double reach =
+                std::min({colour_spread * stations[i].radius, way[i], way.back() - way[i]});
+            spread[i] = reach > 0.0
+                            ? (sum_at(way[i] + reach) - sum_at(way[i] - reach)) / (2.0 * reach)
+                            : stations[i].colour;
+        }
+        for (std::size_t i = first; i < stations.size(); ++i) stations[i].colour = spread[i];
+    }
+
     // Sets where the texture of a tube lies on the chart: where it leaves its parent, the texture goes
     // on from one to the other; further on it is turned, so that the two are not alike.
     static void set_turns(std::vector<Station>& stations, const Station& fork, double turn) {
@@ -850,6 +806,7 @@ class TubeBuilder {
     OrnamentDetail spine_detail_;
     BranchPlan plan_;
     std::uint32_t seed_;
+    std::uint32_t relief_seed_;  ///< of the relief of limbs
     SweepOptions options_;
     std::vector<double> represented_;
     double colour_exponent_ = 1.0;

@@ -27,6 +27,14 @@ constexpr double fillet = 0.25, fillet_begins = 0.97, fillet_whole = 0.3;
 /// end is round, hidden, and no part of what is seen.
 constexpr double begins_after = 0.9;
 
+/// How far a tube may stand out of its parent behind its first section, in its radius there: at that
+/// section, where it lies inside, and what is added per such radius and per its square. So a tube comes
+/// out of its parent as a ridge, and its first section is never seen as a step or an open end.
+constexpr double sunk_at_first = -0.12, rises = 0.12, rises_faster = 0.3;
+
+/// How far a tube may stand out of its parent where its fillet is whole, in its radius there.
+constexpr double fillet_free = 0.35;
+
 /// Distance behind the nearest section of a tube within which others count too, in the radius of its
 /// thickest.
 constexpr double section_reach = 0.3;
@@ -71,6 +79,19 @@ class TubeSolid {
         if (!(begin_.radius > 0.0)) return 1.0;
         return smooth_step(0.0, begins_after * begin_.radius,
                            glm::dot(place - begin_.at, begin_.along));
+    }
+
+    /// Returns how far a place of the tube may stand out of its parent, metres.
+    [[nodiscard]] double free_at(const glm::dvec3& place) const {
+        if (!(begin_.radius > 0.0)) return std::numeric_limits<double>::infinity();
+        const double way = std::max(glm::dot(place - begin_.at, begin_.along) / begin_.radius, 0.0);
+        return begin_.radius * (sunk_at_first + way * (rises + rises_faster * way));
+    }
+
+    /// Returns the share of its fillet that a tube has at a place.
+    [[nodiscard]] double filleted_at(const glm::dvec3& place) const {
+        if (!(begin_.radius > 0.0)) return 1.0;
+        return smooth_step(0.0, fillet_free * begin_.radius, free_at(place));
     }
 
     /// Returns how a place lies to the solid; the distance is of first order in the flattening.
@@ -161,7 +182,7 @@ struct Look {
 /// How the look of a vertex depends on another tube where the surfaces cross.
 struct Dependence {
     double share = 0.0;  ///< of the other's look
-    double begun = 0.0;  ///< how far the two part there, 0..1
+    double begun = 0.0;  ///< how far the two part there, 0..1: share of the fillet
 };
 
 /// Returns by how much another tube changes the look of a vertex.
@@ -182,8 +203,15 @@ Look change(const Look& look, double radius, const Nearness& other, const Depend
             fillet * normal_reach * thin * angle * by.begun * near * near};
 }
 
-/// Returns for each tube the others that it is united with: its parent, its children, and the other
-/// children of its parent.
+/// Returns the parent of the parent of a tube; Tube::none if it has none.
+std::size_t grandparent(const std::vector<Tube>& tubes, std::size_t tube) {
+    const std::size_t parent = tubes[tube].parent;
+    return parent == Tube::none ? Tube::none : tubes[parent].parent;
+}
+
+/// Returns for each tube the others that it is united with: its parent and that one's, the other
+/// children of both, and all that count it among theirs. Where forks follow each other at once a tube
+/// leaves its parent where that one leaves its own.
 std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Tube>& tubes) {
     std::vector<std::vector<std::size_t>> neighbours(tubes.size());
     const auto join = [&](std::size_t a, std::size_t b) {
@@ -198,9 +226,12 @@ std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Tube>& tub
                 if (tubes[other].parent == Tube::none) join(i, other);
             continue;
         }
-        join(i, parent);
-        for (std::size_t other = parent + 1; other < i; ++other)
-            if (tubes[other].parent == parent) join(i, other);
+        const std::size_t before = tubes[parent].parent;
+        if (before != Tube::none) join(i, before);
+        for (std::size_t other = 0; other < i; ++other)
+            if (other == parent || tubes[other].parent == parent ||
+                (before != Tube::none && tubes[other].parent == before))
+                join(i, other);
     }
     return neighbours;
 }
@@ -214,12 +245,29 @@ void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tu
     // Both take the mean where they cross; where a tube begins it looks like its parent.
     const auto dependence = [&](std::size_t tube, std::size_t other, const glm::dvec3& place) {
         const double own = solids[tube].begun_at(place), its = solids[other].begun_at(place);
-        if (tubes[tube].parent == other) return Dependence{1.0 - 0.5 * own, own};
-        if (tubes[other].parent == tube) return Dependence{0.5 * its, its};
-        return Dependence{0.5 * own * its, own * its};
+        const double own_fillet = solids[tube].filleted_at(place),
+                     its_fillet = solids[other].filleted_at(place);
+        if (tubes[tube].parent == other || grandparent(tubes, tube) == other)
+            return Dependence{1.0 - 0.5 * own, own_fillet};
+        if (tubes[other].parent == tube || grandparent(tubes, other) == tube)
+            return Dependence{0.5 * its, its_fillet};
+        return Dependence{0.5 * own * its, own_fillet * its_fillet};
+    };
+    // Returns a place of a tube, moved into its parent, or that one's, where it begins.
+    const auto sunk = [&](std::size_t tube, const glm::dvec3& place) {
+        const double most = solids[tube].free_at(place), reach = 3.0 * solids[tube].thickest();
+        if (!(most < reach)) return place;
+        Nearness nearest;
+        for (const std::size_t bearer : {tubes[tube].parent, grandparent(tubes, tube)}) {
+            if (bearer == Tube::none || !solids[bearer].may_reach(place, reach)) continue;
+            const Nearness near = solids[bearer].near(place, reach, sections);
+            if (near.distance < nearest.distance) nearest = near;
+        }
+        const double above = nearest.distance - most;
+        return above > 0.0 && nearest.distance < reach ? place - above * nearest.gradient : place;
     };
     const auto blend = [&](std::size_t tube, double radius, std::size_t vertex) {
-        const glm::dvec3 place(mesh.positions[vertex]);
+        const glm::dvec3 place = sunk(tube, glm::dvec3(mesh.positions[vertex]));
         const Look own{glm::dvec3(mesh.normals[vertex]), colours[vertex]};
         Look sum = own;
         for (const std::size_t other : neighbours[tube]) {

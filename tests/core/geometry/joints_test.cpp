@@ -110,7 +110,12 @@ TEST(Joints, FilletBothSurfacesOutwardsAndChangeNothingFarAway) {
         const glm::dvec3 moved =
             glm::dvec3(crossing.mesh.positions[i]) - glm::dvec3(before.mesh.positions[i]);
         const double raised = glm::dot(moved, glm::dvec3(before.mesh.normals[i]));
-        EXPECT_NEAR(glm::length(moved), raised, 1e-4 * radius);
+        // Near its beginning the other tube is moved into the upright one.
+        const bool begins =
+            i >= before.tubes[1].rows[0].first_vertex && before.mesh.positions[i].x < 2.0 * radius;
+        if (!begins) {
+            EXPECT_NEAR(glm::length(moved), raised, 1e-4 * radius);
+        }
         EXPECT_LE(raised, 0.4 * radius);
         most = std::max(most, raised);
         if (distance_from_other(before, i) < 2.3 * radius) continue;
@@ -121,6 +126,21 @@ TEST(Joints, FilletBothSurfacesOutwardsAndChangeNothingFarAway) {
     }
     EXPECT_GT(far, 500);
     EXPECT_GT(most, 0.2 * radius);
+}
+
+TEST(Joints, ATubeBeginsInsideItsParentAndComesOutOfItWithoutAStep) {
+    Crossing crossing;
+    blend_joints(crossing.mesh, crossing.colours, crossing.tubes);
+    const TubeRows& rows = crossing.tubes[1].rows[0];
+    const auto out = [&](std::size_t row, std::uint32_t column) {
+        const glm::vec3& at = crossing.mesh.positions[rows.first_vertex + row * sides + column];
+        return std::hypot(static_cast<double>(at.x), static_cast<double>(at.z)) - radius;
+    };
+    for (std::uint32_t column = 0; column < sides; ++column) {
+        EXPECT_LT(out(0, column), -0.1 * radius);
+        for (std::size_t row = 1; row < rows.count; ++row)
+            EXPECT_LT(out(row, column) - out(row - 1, column), 0.3 * radius) << row;
+    }
 }
 
 }  // namespace
