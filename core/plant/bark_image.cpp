@@ -26,6 +26,9 @@ constexpr int warp_cells = 7;
 constexpr double most_lichen = 0.55;
 constexpr glm::dvec3 lichen_light(0.30, 0.33, 0.25);
 
+// Colour of the under side of thin bark that has peeled, as a factor of the upper one.
+constexpr glm::dvec3 peeled_tint(0.86, 0.60, 0.42);
+
 glm::dvec3 linear(const Colour& colour) {
     return {srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
             srgb_to_linear(colour.b / 255.0)};
@@ -38,6 +41,8 @@ class BarkPainter {
     BarkPainter(const BarkStyle& style, std::uint32_t seed, int side)
         : style_(style),
           seed_(seed),
+          paper_(smooth_step(0.12, 0.4, style.lenticels) *
+                 (1.0 - smooth_step(0.1, 0.3, style.furrows))),
           count_(static_cast<std::size_t>(side)),
           heights_(count_ * count_, 0.0F),
           ridge_(linear(style.ridge)),
@@ -82,6 +87,7 @@ class BarkPainter {
 
     const BarkStyle& style_;
     std::uint32_t seed_;
+    double paper_;       ///< how far bark peels in thin level sheets: smooth bark with dashes
     std::size_t count_;  ///< texels of a row
     RawImages images_;
     std::vector<float> heights_;  ///< in girths
@@ -102,6 +108,17 @@ void BarkPainter::paint_row(std::size_t y) {
     const std::vector<float> spots = noise_row(y, 5, 1.0, 3U);
     const std::vector<float> lichen = noise_row(y, 19, 1.1, 10U, &warp, 0.5);
     const std::vector<float> dashes = noise_row(y, 9, 0.16, 4U);
+    // Thin sheets: fine level streaks, bands that have peeled, fine dashes, and black flaws.
+    const bool peels = paper_ > 0.0;
+    const auto of_paper = [&](int round, double longer, std::uint32_t purpose, double by) {
+        return peels ? noise_row(y, round, longer, purpose, &warp, by) : std::vector<float>();
+    };
+    const std::vector<float> streaks = of_paper(11, 0.05, 11U, 0.02),
+                             threads = of_paper(29, 0.06, 12U, 0.0),
+                             bands = of_paper(4, 0.20, 13U, 0.10),
+                             ragged = of_paper(23, 0.30, 14U, 0.0),
+                             small = of_paper(31, 0.10, 15U, 0.0),
+                             flaws = of_paper(3, 0.75, 16U, 0.2);
     // Lichen finds hold on rough bark.
     const double hold = most_lichen * smooth_step(0.2, 0.6, style_.furrows);
     for (std::size_t x = 0; x < count_; ++x) {
@@ -130,6 +147,32 @@ void BarkPainter::paint_row(std::size_t y) {
                              smooth_step(0.30, 0.55, of(lichen) + 0.35 * of(spots) + 0.20 * scale) *
                              smooth_step(0.35, 0.8, rise) * (1.0 - lenticel);
         light += grown * (lichen_light * (1.0 + 0.25 * scale + 0.2 * grain) - light);
+        double sheet = 0.0, worn = 0.0;
+        if (peels) {
+            const double edge = of(bands) + 0.16 * of(ragged) + 0.10 * of(streaks);
+            const double open = smooth_step(0.24, 0.27, edge);
+            // The border of a sheet curls up and throws a thin shadow.
+            const double shadow = smooth_step(0.19, 0.24, edge) * (1.0 - open),
+                         lip =
+                             smooth_step(0.265, 0.28, edge) * (1.0 - smooth_step(0.28, 0.34, edge));
+            const double dashlet = smooth_step(0.34, 0.5, of(small)) * (1.0 - open);
+            worn = smooth_step(0.40, 0.52,
+                               of(flaws) + 0.22 * of(ragged) + 0.12 * of(uneven) + 0.06 * grain);
+            glm::dvec3 paper = ridge_ * (1.0 + 0.13 * of(streaks) + 0.10 * of(threads) +
+                                         0.10 * of(spots) + 0.04 * grain);
+            paper +=
+                paper_ * 0.75 * open *
+                (ridge_ * peeled_tint * (0.85 + 0.25 * of(threads) + 0.15 * of(streaks)) - paper);
+            paper *= 1.0 - 0.45 * shadow;
+            paper += 0.55 * lip * (glm::dvec3(0.86, 0.84, 0.80) - paper);
+            paper += 0.55 * dashlet * (dash_ * 2.5 - paper);
+            paper += std::max(lenticel * (1.0 - 0.5 * open), 0.0) * (dash_ - paper);
+            paper += worn * (dash_ * (0.55 + 0.5 * scale + 0.6 * std::max(grain, 0.0)) - paper);
+            light += paper_ * (paper - light);
+            sheet = 0.05 * of(streaks) + 0.04 * of(threads) - 0.30 * open + 0.25 * lip -
+                    0.06 * dashlet - 0.08 * lenticel +
+                    worn * (0.35 * of(uneven) + 0.30 * grain + 0.25 * scale - 0.1);
+        }
         const std::size_t at = y * count_ + x;
         for (std::size_t k = 0; k < 3; ++k)
             images_.rgb[0][3 * at + k] =
@@ -137,9 +180,13 @@ void BarkPainter::paint_row(std::size_t y) {
         heights_[at] = static_cast<float>(
             deepest * (style_.furrows * rise * 14.0 / ridges + 0.05 * grain + 0.03 * scale +
                        0.05 * of(uneven) + 0.05 * grown - 0.08 * lenticel));
+        if (peels)
+            heights_[at] += static_cast<float>(
+                paper_ * (deepest * 0.28 * sheet - static_cast<double>(heights_[at])));
         images_.rgb[2][3 * at] = share_as_byte(1.0 - 0.6 * deep);
         images_.rgb[2][3 * at + 1] =
-            share_as_byte(0.87 + 0.1 * grain - 0.22 * (1.0 - style_.furrows) + 0.1 * grown);
+            share_as_byte(0.87 + 0.1 * grain - 0.22 * (1.0 - style_.furrows) + 0.1 * grown +
+                          paper_ * (0.08 * of(spots) + 0.2 * worn));
     }
 }
 
