@@ -15,12 +15,16 @@
 #include "core/grow/names.h"
 #include "core/grow/translucency.h"
 #include "core/math/direction.h"
+#include "core/math/elementary.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
+#include "core/plant/crown_shade.h"
 #include "core/plant/foliage.h"
+#include "core/plant/foot_soil.h"
+#include "core/plant/leaf_shell.h"
 #include "core/plant/root_flare.h"
 #include "core/plant/tree_sway.h"
 #include "core/plant/tree_tints.h"
@@ -96,8 +100,9 @@ void refuse_beyond_bounds(const Tree& tree) {
 ///
 /// sway   of the tree; null for leaves without it
 /// tints  of the tree; null for leaves of one hue
+/// crown  the shade of its crown
 void add_leaves(TreeMeshes& meshes, Foliage foliage, const TreeParams& params, const TreeSway* sway,
-                const TreeTints* tints) {
+                const TreeTints* tints, const CrownShade& crown) {
     if (foliage.leaves.empty()) return;
     double share = 1.0;
     float shade = 1.0F;
@@ -111,7 +116,9 @@ void add_leaves(TreeMeshes& meshes, Foliage foliage, const TreeParams& params, c
                 {params.size * one.place,
                  quaternion_of({glm::cross(one.up, one.along), one.up, one.along}),
                  one.size * glm::dvec3(one.breadth, one.thickness, 1.0),
-                 tints ? shade * tints->of_leaf(one, share) : glm::vec3(1.0F)});
+                 tints
+                     ? shade * static_cast<float>(crown.at(one.place)) * tints->of_leaf(one, share)
+                     : glm::vec3(1.0F)});
         meshes.leaves = std::move(foliage.leaf);
     } else {
         meshes.leaves = merged_leaves(foliage.leaves, foliage.leaf);
@@ -119,9 +126,27 @@ void add_leaves(TreeMeshes& meshes, Foliage foliage, const TreeParams& params, c
         if (tints)
             meshes.leaves.tints =
                 tints_of(foliage.leaves, foliage.leaf.positions.size(), *tints, share);
-        for (glm::vec3& tint : meshes.leaves.tints) tint *= shade;
+        const std::size_t corners = foliage.leaf.positions.size();
+        for (std::size_t i = 0; i < meshes.leaves.tints.size(); ++i)
+            meshes.leaves.tints[i] *=
+                shade * static_cast<float>(crown.at(foliage.leaves[i / corners].place));
     }
     finish(meshes.leaves, params);
+}
+
+/// Returns how black the fissures at the foot of a trunk are: most under pale bark that peels.
+double blackness_of_foot(const BarkStyle& bark) {
+    return std::min(0.95, 0.3 + 1.3 * bark.lenticels);
+}
+
+/// Returns the light that bark reflects on average, linear.
+glm::vec3 mean_light_of(const BarkStyle& bark) {
+    const auto mean = [&](std::uint8_t ridge, std::uint8_t furrow) {
+        const double high = srgb_to_linear(ridge / 255.0), low = srgb_to_linear(furrow / 255.0);
+        return static_cast<float>(high + 0.4 * bark.furrows * (low - high));
+    };
+    return {mean(bark.ridge.r, bark.furrow.r), mean(bark.ridge.g, bark.furrow.g),
+            mean(bark.ridge.b, bark.furrow.b)};
 }
 
 // Throws Impossible for options that exclude each other, also those of trees alone.
@@ -169,13 +194,15 @@ LevelCount expected_count(const TreeParams& params, int lod, double all) {
                 {far.leaf_vertices, far.leaf_triangles}};
     }
     TreeCount bark = count_of_bark(params.look.shape, lod);
-    const TreeCount foot = count_of_flare(params.look.shape, lod);
-    bark.vertices += foot.vertices;
-    bark.triangles += foot.triangles;
+    for (const TreeCount& foot :
+         {count_of_flare(params.look.shape, lod), count_of_foot_soil(params.look.shape, lod)}) {
+        bark.vertices += foot.vertices;
+        bark.triangles += foot.triangles;
+    }
     const std::uint64_t triangles = leaf_triangles(lod, placed);
     return {{static_cast<std::uint64_t>(bark.vertices), static_cast<std::uint64_t>(bark.triangles)},
             foliage_count(lod, placed),
-            {leaf_vertices(triangles), triangles}};
+            {lod == 0 ? finest_leaf_vertices(triangles) : leaf_vertices(triangles), triangles}};
 }
 
 /// Adds a level of detail to the size of a file.
@@ -372,6 +399,8 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
     }
     std::optional<TreeTints> tints;
     if (has_tints(params)) tints.emplace(tree, params.look.leaves.hue_spread, params.seed);
+    const CrownShade crown(tree);
+    const double flare = params.look.shape.root_flare;
     std::vector<TreeMeshes> levels;
     for (const int lod : mesh_levels_of(params)) {
         params.lod = lod;
@@ -384,15 +413,19 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
             foliage = std::move(far.foliage);
         } else {
             bark = bark_of(tree, lod);
-            flare_roots(bark, tree, params.look.shape.root_flare, params.seed, lod);
+            flare_roots(bark, tree, flare, params.seed, lod);
+            add_foot_soil(bark, tree, flare, params.seed, lod);
             foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);
         }
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
         if (tints) bark.mesh.tints = tints_of(bark, *tints);
+        if (tints && lod < first_far_lod)
+            tint_foot(bark.mesh.tints, bark, tree, flare, params.seed, lod,
+                      blackness_of_foot(params.look.bark), mean_light_of(params.look.bark));
         TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);
         add_leaves(meshes, std::move(foliage), params, sway ? &*sway : nullptr,
-                   tints ? &*tints : nullptr);
+                   tints ? &*tints : nullptr, crown);
         levels.push_back(std::move(meshes));
     }
     return levels;

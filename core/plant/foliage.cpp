@@ -15,6 +15,7 @@
 #include "core/math/elementary.h"
 #include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
+#include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
 
@@ -29,8 +30,8 @@ constexpr std::array<double, tree_lods> least = {0.0, 16'000.0, 5'600.0, 3'900.0
 // By level of detail: triangles of a leaf where few leaves stand, those below which none goes, and
 // the number of triangles of all leaves above which each has fewer.
 constexpr std::array<std::size_t, tree_lods> most_triangles = {most_foliage_triangles, 12, 4, 4};
-constexpr std::array<std::size_t, tree_lods> fewest_triangles = {8, 4, 2, 2};
-constexpr std::array<std::size_t, tree_lods> most_in_all = {160'000, 64'000, 11'200, 7'800};
+constexpr std::array<std::size_t, tree_lods> fewest_triangles = {4, 4, 2, 2};
+constexpr std::array<std::size_t, tree_lods> most_in_all = {200'000, 64'000, 11'200, 7'800};
 
 // Length of a group's leaf in its breadths at most, of ellipses with their variances; more would be a
 // stripe.
@@ -434,8 +435,9 @@ Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& sh
                       triangles = leaf_triangles(lod, all.size());
     // The same leaves at the same places, so that files with several levels share them.
     const double share = area_shares[index_of(lod)];
+    if (lod == 0) return {std::move(all), finest_foliage_leaf(shape, triangles)};
     if (count == all.size()) return {std::move(all), foliage_leaf(shape, triangles, share)};
-    const Mesh finest = foliage_leaf(shape, leaf_triangles(0, all.size()));
+    const Mesh finest = finest_foliage_leaf(shape, leaf_triangles(0, all.size()));
     const Farthest farthest = farthest_first(all, finest);
     LeafShape flat = shape;
     flat.curl_deg = flat.fold_deg = flat.wave = 0.0;

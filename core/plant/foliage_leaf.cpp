@@ -165,8 +165,14 @@ Model model_of(const LeafShape& shape) {
     return model;
 }
 
-Shell simplified_shell(const Model& model, const Bending& bent, std::size_t triangles,
-                       Preserved preserved) {
+// The border of a model: its right half from the root to the tip, reduced to a few corners, and the
+// place from which all of it is seen.
+struct Outline {
+    std::vector<glm::dvec2> half;
+    glm::dvec2 centre;
+};
+
+Outline outline_of(const Model& model, std::size_t corners, Preserved preserved) {
     const LeafShape& shape = model.shape;
     const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
     // The border is straight between the ends of veins; otherwise all corners would be spent on the
@@ -183,11 +189,24 @@ Shell simplified_shell(const Model& model, const Bending& bent, std::size_t tria
         half.push_back(place);
         if (place == tip) break;
     }
-    std::vector<glm::dvec2> border = simplified(half, centre, triangles / 4 + 1);
-    const std::vector<glm::dvec2> whole = border_of(lamina);
-    if (preserved == Preserved::extent) stretch(border, centre, whole);
-    for (std::size_t i = border.size() - 2; i > 0; --i)
-        border.emplace_back(-border[i].x, border[i].y);
+    half = simplified(half, centre, corners);
+    if (preserved == Preserved::extent) stretch(half, centre, border_of(lamina));
+    return {std::move(half), centre};
+}
+
+// Returns the whole border of which one half is given.
+std::vector<glm::dvec2> mirrored(const std::vector<glm::dvec2>& half) {
+    std::vector<glm::dvec2> border = half;
+    for (std::size_t i = half.size() - 2; i > 0; --i) border.emplace_back(-half[i].x, half[i].y);
+    return border;
+}
+
+Shell simplified_shell(const Model& model, const Bending& bent, std::size_t triangles,
+                       Preserved preserved) {
+    const LeafShape& shape = model.shape;
+    const Outline outline = outline_of(model, triangles / 4 + 1, preserved);
+    const glm::dvec2 centre = outline.centre;
+    const std::vector<glm::dvec2> border = mirrored(outline.half);
     const double grown =
         preserved == Preserved::area ? std::sqrt(model.area / area_of(border)) : 1.0;
     Shell shell;
@@ -203,6 +222,35 @@ Shell simplified_shell(const Model& model, const Bending& bent, std::size_t tria
         shell.triangles.push_back({i, next, count});
         shell.triangles.push_back({below + next, below + i, below + count});
     }
+    return shell;
+}
+
+/// Returns a leaf without a centre, folded along the line from its root to its tip; of no triangles if
+/// one of its halves is not seen from the root.
+///
+/// texture  called with a place of the lamina and whether its upper face is meant
+template <class Texture>
+Shell folded_shell(const std::vector<glm::dvec2>& half, double area, const Bending& bent,
+                   std::size_t triangles, const Texture& texture) {
+    Shell shell;
+    if (half.size() != triangles / 4 + 2) return shell;
+    for (std::size_t i = 1; i + 1 < half.size(); ++i)
+        if (!(twice_area(half[0], half[i], half[i + 1]) > 1e-6)) return shell;
+    const std::vector<glm::dvec2> border = mirrored(half);
+    const double grown = std::sqrt(area / area_of(border));
+    const auto count = static_cast<std::uint32_t>(border.size()),
+               tip = static_cast<std::uint32_t>(half.size() - 1);
+    for (const bool upper : {true, false})
+        for (const glm::dvec2& place : border)
+            shell.add(bent.at(grown * place, 0.0), texture(place, upper));
+    for (std::uint32_t i = 1; i + 1 < count; ++i) {
+        // The left half ends where the right one begins, at the tip.
+        if (i == tip) continue;
+        shell.triangles.push_back({0, i, i + 1});
+        shell.triangles.push_back({count, count + i + 1, count + i});
+    }
+    shell.triangles.push_back({0, tip, tip + 1});
+    shell.triangles.push_back({count, count + tip + 1, count + tip});
     return shell;
 }
 
@@ -280,6 +328,73 @@ Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {
     const Model model = model_of(shape);
     return simplified_shell(model, Bending(model.shape), triangles, Preserved::area)
         .mesh(shape.length);
+}
+
+namespace {
+
+// Half the breadth of the blade that shows a shoot, in its lengths, and how far it is folded.
+constexpr double blade_half = 0.095, blade_fold_deg = 22.0;
+
+/// Returns whether a shoot is painted beside a leaflet.
+bool is_slim(const LeafShape& leaflet) {
+    double half = 0.0;
+    for (const glm::dvec2& place :
+         border_of(lamina_of(leaflet.venation, leaf_steps(leaflet.venation, 0))))
+        half = std::max(half, std::abs(place.x));
+    return half < slim;
+}
+
+/// Returns a blade of four or eight triangles that shows a shoot.
+Shell shoot_blade(const LeafShape& shape, std::size_t triangles) {
+    LeafShape blade = shape;
+    blade.fold_deg = blade_fold_deg;
+    blade.wave = 0.0;
+    const std::vector<glm::dvec2> half =
+        triangles == 4 ? std::vector<glm::dvec2>{{0.0, 0.0}, {blade_half, 0.5}, {0.0, 1.0}}
+                       : std::vector<glm::dvec2>{
+                             {0.0, 0.0}, {0.9 * blade_half, 0.22}, {blade_half, 0.68}, {0.0, 1.0}};
+    return folded_shell(half, area_of(mirrored(half)), Bending(blade), triangles,
+                        [](const glm::dvec2& place, bool upper) {
+                            return glm::dvec2((upper ? 0.0 : 0.5) + spray_middle +
+                                                  0.9 * spray_half * place.x / blade_half,
+                                              spray_root - spray_length * place.y);
+                        });
+}
+
+/// Appends a shell, turned by a right angle about the line from its root to its tip.
+void append_crossed(Shell& shell, const Shell& other) {
+    const auto shift = static_cast<std::uint32_t>(shell.places.size());
+    for (const glm::dvec3& place : other.places)
+        shell.places.emplace_back(-place.y, place.x, place.z);
+    shell.texture.insert(shell.texture.end(), other.texture.begin(), other.texture.end());
+    for (const auto& [a, b, c] : other.triangles)
+        shell.triangles.push_back({a + shift, b + shift, c + shift});
+}
+
+}  // namespace
+
+std::size_t finest_leaf_vertices(std::size_t triangles) {
+    return triangles + (triangles <= 8 ? 4 : 8);
+}
+
+Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles) {
+    throw_if_invalid(shape);
+    const bool is_blade = triangles == 4 || triangles == 8;
+    Shell folded;
+    if (shape.leaflets.count == 0 && is_blade) {
+        const Model model = model_of(shape);
+        folded =
+            folded_shell(outline_of(model, triangles / 4 + 2, Preserved::area).half, model.area,
+                         Bending(shape), triangles, [&](const glm::dvec2& place, bool upper) {
+                             return model.chart.texture_point(place, upper);
+                         });
+    } else if (shape.leaflets.count > 0 && shape.leaflets.turn_deg != 180.0 &&
+               (is_blade || triangles == 12 || triangles == 16) && is_slim(leaflet_of(shape))) {
+        folded = shoot_blade(shape, std::min<std::size_t>(triangles, 8));
+        // A second blade stands square to the first.
+        if (!is_blade) append_crossed(folded, shoot_blade(shape, triangles - 8));
+    }
+    return folded.triangles.empty() ? foliage_leaf(shape, triangles) : folded.mesh(shape.length);
 }
 
 }  // namespace sporeprint

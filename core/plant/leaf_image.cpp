@@ -201,6 +201,15 @@ class LeafPainter {
             for (std::size_t k = 0; k < 2; ++k)
                 across_[k].push_back(static_cast<float>(columns_.back() + 8.0) * features[k]);
         }
+        LaminaPlace blade;
+        blade.affinity = 0.5;
+        blade.homothety = 0.3;
+        blade.from_main = blade.from_side = 1e9;
+        needle_ = colour_map_.at(blade, autumn_);
+        blade.homothety = 1.0;
+        blade.affinity = 0.9;
+        young_ = colour_map_.at(blade, autumn_);
+        has_spray_ = half_breadth(sampler_.lamina()) < slim;
         find_lamina_tiles();
         const LeafColourMap::Faces beyond = colour_map_.at(beyond_lamina, autumn_);
         for (const bool upper : {true, false}) {
@@ -295,6 +304,39 @@ class LeafPainter {
         if (span.last == half) outer(lower + 3 * (half - 1), half - 1, slope(half - 2), -1.0);
     }
 
+    // Paints a shoot of needles beside a needle: three layers of needles on either side of a twig, the
+    // lower ones dark.
+    void spray_row(std::size_t y) {
+        if (!has_spray_) return;
+        const auto side = static_cast<double>(count_);
+        const double along = (spray_root - (static_cast<double>(y) + 0.5) / side) / spray_length;
+        if (along < -0.02 || along > 1.02) return;
+        const auto first = static_cast<std::size_t>((spray_middle - spray_half) * side),
+                   last = static_cast<std::size_t>((spray_middle + spray_half) * side);
+        for (std::size_t x = first; x < last; ++x) {
+            Spray sum;
+            const int points = count_ < 1024 ? 2 : 1;
+            for (int i = 0; i < points * points; ++i) {
+                const double dx = (i % points + 0.5) / points - 0.5,
+                             dy = (static_cast<double>(i / points) + 0.5) / points - 0.5;
+                const Spray one = spray_at(
+                    along + dy / (side * spray_length),
+                    ((static_cast<double>(x) + 0.5 + dx) / side - spray_middle) / spray_half);
+                sum.upper += one.upper;
+                sum.lower += one.lower;
+                sum.tilt += one.tilt;
+                sum.open += one.open;
+            }
+            const double share = 1.0 / (points * points);
+            const double rough = 0.55 + 0.2 * autumn_, tilt = share * sum.tilt,
+                         up = std::sqrt(1.0 - tilt * tilt);
+            const std::size_t at = y * count_ + x, below = at + count_ / 2;
+            put_texel(at, painted_texel({share * sum.upper, share * sum.open, rough}));
+            put_texel(below, painted_texel({share * sum.lower, share * sum.open, rough + 0.15}));
+            put_normals(&images_.rgb[1][3 * at], &images_.rgb[1][3 * below], 0.35 * tilt, tilt, up);
+        }
+    }
+
     [[nodiscard]] RawImages take() { return std::move(images_); }
 
   private:
@@ -312,6 +354,68 @@ class LeafPainter {
     struct Span {
         std::size_t first = 0, last = 0;
     };
+
+    // A point of the picture of a shoot: colours of both sides, slope along the shoot, and how far light
+    // comes to it.
+    struct Spray {
+        glm::dvec3 upper{0.0}, lower{0.0};
+        double tilt = 0.0, open = 0.0;
+    };
+
+    // Needles of a layer: how many along a shoot, how far their tips are ahead of their roots, how far
+    // they reach from the twig, half their breadth in their distance, and their light.
+    struct Layer {
+        double count, ahead, length, half, light;
+        std::uint32_t salt;
+    };
+    static constexpr std::array<Layer, 3> layers = {Layer{44.0, 0.060, 1.0, 0.27, 0.75, 5},
+                                                    Layer{37.0, 0.085, 0.92, 0.26, 1.10, 31},
+                                                    Layer{30.0, 0.110, 0.62, 0.25, 1.50, 77}};
+
+    /// Returns a point of the picture of a shoot.
+    ///
+    /// along   from its root, 0, to its tip, 1
+    /// across  -1..1
+    [[nodiscard]] Spray spray_at(double along, double across) const {
+        Spray seen;
+        seen.upper = 0.28 * needle_.upper;
+        seen.lower = 0.30 * needle_.lower;
+        seen.open = 0.35;
+        const double out = std::abs(across);
+        const auto put = [&](const glm::dvec3& upper, const glm::dvec3& lower, double tilt,
+                             double open) {
+            seen = {upper, lower, tilt, open};
+        };
+        for (std::size_t k = 0; k < layers.size(); ++k) {
+            const Layer& layer = layers[k];
+            if (k + 1 == layers.size() && out < 0.05 * (1.1 - along))
+                put(0.8 * petiole_, 0.8 * petiole_, 0.0, 0.7);
+            // Two needles can meet at a point, since each leans by itself.
+            const double nearest = (along - layer.ahead * out) * layer.count;
+            for (int next = -1; next <= 1; ++next) {
+                const double index = std::floor(nearest) + next;
+                const glm::dvec2 own =
+                    cell_middle(static_cast<int>(index), across < 0.0 ? 1 : 2, layer.salt + seed_);
+                const double moved = own.x - std::floor(own.x), drawn = own.y - std::floor(own.y);
+                const double reach = layer.length * (0.72 + 0.28 * drawn);
+                const double t = out / reach;
+                if (t >= 1.0) continue;
+                const double lean = 0.5 * (drawn - 0.5) * t;
+                const double off = nearest - (index + 0.5 + 0.5 * (moved - 0.5) + lean);
+                const double half =
+                    layer.half * std::min(1.0, 3.0 * (1.0 - t)) * std::min(1.0, 0.6 + 2.0 * t);
+                if (std::abs(off) >= half) continue;
+                const double round = off / half, keel = 1.0 - 0.45 * round * round;
+                const double tone = layer.light * keel * (0.8 + 0.4 * moved) * (0.75 + 0.4 * t);
+                const double fresh =
+                    0.5 * smooth_step(0.75, 1.0, t) + 0.35 * smooth_step(0.8, 1.0, along);
+                put(tone * (needle_.upper + fresh * (young_.upper - needle_.upper)),
+                    tone * (needle_.lower + fresh * (young_.lower - needle_.lower)), 0.55 * round,
+                    std::min(1.0, 0.55 + 0.3 * layer.light));
+            }
+        }
+        return seen;
+    }
 
     // A line of sample points: its position, its noise from a point on, and the state of the
     // previous lookup.
@@ -488,6 +592,8 @@ class LeafPainter {
     std::size_t points_;  // per texel in each direction, because veins are narrow
     double share_;        // weight of a point in its texel
     glm::dvec3 petiole_{0.0};
+    LeafColourMap::Faces needle_, young_;       // colours of a needle and of its tip
+    bool has_spray_ = false;                    // whether a shoot is painted beside a needle
     std::vector<double> columns_;               // x in the plane of the lamina, by point
     std::array<std::vector<float>, 2> across_;  // the same in units of the noise lattice
     std::size_t tile_;                          // texels across
@@ -513,6 +619,7 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
     LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side));
     for_each_row(side, parallel, [&](std::size_t y) { painter.colour_row(y); });
     for_each_row(side, parallel, [&](std::size_t y) { painter.normal_row(y); });
+    for_each_row(side, parallel, [&](std::size_t y) { painter.spray_row(y); });
     return painter.take();
 }
 

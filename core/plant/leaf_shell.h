@@ -107,6 +107,26 @@ enum class Preserved {
 [[nodiscard]] Shell foliage_shell(const LeafShape& shape, const Bending& bent,
                                   std::size_t triangles, Preserved preserved);
 
+/// Where the image of a needle shows a whole shoot of such needles beside it: its root and half breadth
+/// and its length in texture lengths, as drawn in the left half for the upper face.
+inline constexpr double spray_middle = 0.31, spray_half = 0.17, spray_root = 0.925,
+                        spray_length = 0.90;
+
+/// Half the breadth of a needle, in its lengths, beside which there is space for a shoot.
+inline constexpr double slim = 0.045;
+
+/// Returns the leaf of a tree at its finest level: a simple leaf of four or eight triangles is folded
+/// along its middle vein, with two or four corners beside it, and bent, where foliage_leaf() is flat or
+/// has a corner less on either side; a shoot of needles that stand all round is a blade that shows the
+/// picture of a shoot. All others are those of foliage_leaf().
+///
+/// triangles  4, 8, 12 or 16
+/// throws     as foliage_leaf()
+[[nodiscard]] Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles);
+
+/// Returns the most vertices of finest_foliage_leaf() of so many triangles.
+[[nodiscard]] std::size_t finest_leaf_vertices(std::size_t triangles);
+
 /// Throws InvalidInput with all that check() reports of a leaf.
 void throw_if_invalid(const LeafShape& shape);
 

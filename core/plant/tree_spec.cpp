@@ -25,6 +25,8 @@ TreePaint paint_of(const TreeParams& params) {
 LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset) {
     LeafParams leaf = params_of(preset);
     leaf.autumn = params.autumn;
+    // All leaves of a tree share one image: the same hole in each would be seen.
+    leaf.shape.eaten = leaf.palette.marks = 0.0;
     leaf.lod = std::min(params.lod, last_lod);
     leaf.texture_size = params.texture_size;
     return leaf;

@@ -61,7 +61,8 @@ TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
     EXPECT_NE(paint_of(other), paint_of(params));
 }
 
-TEST(TreeSpec, UsesTheImagesOfItsLeafAlone) {
+// All leaves of a tree show one image: a hole or a mark would be in each of them.
+TEST(TreeSpec, UsesTheImagesOfItsLeafAloneUnmarked) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.seed = 77;
     params.autumn = 0.4;
@@ -71,6 +72,7 @@ TEST(TreeSpec, UsesTheImagesOfItsLeafAlone) {
     alone.autumn = 0.4;
     alone.texture_size.value = 256;
     alone.lod = 1;
+    alone.shape.eaten = alone.palette.marks = 0.0;
     EXPECT_EQ(paint_of(leaf_of(params, *leaf_preset("oak"))), paint_of(alone));
 }
 
