@@ -66,9 +66,12 @@ void add_foot_soil(Bark& bark, const Tree& tree, double flare, std::uint32_t see
     const double girths = 1.0 / (2.0 * pi * radius);
     const auto add = [&](const glm::dvec3& place) {
         piece.positions.emplace_back(place);
+        // Finer than on the trunk, and ridges no longer than wide: crumbs instead of furrows. Triangles of
+        // coarse levels would be wider than an image.
+        const double fine = lod < 2 ? 1.7 : 0.6, shorter = lod < 2 ? 2.5 : 1.0;
         piece.texture_coordinates.emplace_back(
-            std::clamp(0.5 + 0.6 * girths * place.x, 0.0, 1.0),
-            std::clamp(0.5 + 0.6 * girths * place.z / bark_girths, 0.0, 1.0));
+            mirrored_place(20.5 + fine * girths * place.x),
+            mirrored_place(20.5 + shorter * fine * girths * place.z / bark_girths));
     };
     const auto place_of = [&](std::uint32_t ring, std::uint32_t side, bool is_upper) {
         const double along = static_cast<double>(ring) / level.rings;

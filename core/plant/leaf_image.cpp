@@ -317,8 +317,8 @@ class LeafPainter {
             Spray sum;
             const int points = count_ < 1024 ? 2 : 1;
             for (int i = 0; i < points * points; ++i) {
-                const double dx = (i % points + 0.5) / points - 0.5,
-                             dy = (static_cast<double>(i / points) + 0.5) / points - 0.5;
+                const int row = i / points, column = i % points;
+                const double dx = (column + 0.5) / points - 0.5, dy = (row + 0.5) / points - 0.5;
                 const Spray one = spray_at(
                     along + dy / (side * spray_length),
                     ((static_cast<double>(x) + 0.5 + dx) / side - spray_middle) / spray_half);
@@ -368,9 +368,9 @@ class LeafPainter {
         double count, ahead, length, half, light;
         std::uint32_t salt;
     };
-    static constexpr std::array<Layer, 3> layers = {Layer{44.0, 0.060, 1.0, 0.27, 0.75, 5},
-                                                    Layer{37.0, 0.085, 0.92, 0.26, 1.10, 31},
-                                                    Layer{30.0, 0.110, 0.62, 0.25, 1.50, 77}};
+    static constexpr std::array<Layer, 3> layers = {Layer{44.0, 0.060, 1.0, 0.27, 0.95, 5},
+                                                    Layer{37.0, 0.085, 0.92, 0.26, 1.40, 31},
+                                                    Layer{30.0, 0.110, 0.62, 0.25, 1.85, 77}};
 
     /// Returns a point of the picture of a shoot.
     ///
