@@ -23,7 +23,6 @@
 #include "core/math/random.h"
 #include "core/math/spline.h"
 #include "core/mesh/tangents.h"
-#include "core/params/messages.h"
 #include "core/surface/charts.h"
 
 namespace sporeprint {
