@@ -13,8 +13,8 @@
 #include "core/geometry/branch_plan.h"
 #include "core/geometry/ground.h"
 #include "core/geometry/joints.h"
-#include "core/geometry/limb_relief.h"
 #include "core/geometry/ruffle.h"
+#include "core/geometry/segment_relief.h"
 #include "core/geometry/spines.h"
 #include "core/geometry/tube.h"
 #include "core/math/direction.h"
@@ -130,7 +130,7 @@ class TubeBuilder {
         mesh_.indices.reserve(3 * static_cast<std::size_t>(plan_.count.triangles));
         for (const TubeChain& chain : plan_.chains) add_chain(chain);
         blend_joints(mesh_, colours_, tubes_);
-        add_limb_relief(mesh_, tubes_, graph_.gnarl, graph_.trunk_radius, relief_seed_);
+        add_segment_relief(mesh_, tubes_, graph_.gnarl, graph_.trunk_radius, relief_seed_);
         if (options_.textured) {
             add_texture_coordinates();
             add_tangents(mesh_);
@@ -805,7 +805,7 @@ class TubeBuilder {
     OrnamentDetail spine_detail_;
     BranchPlan plan_;
     std::uint32_t seed_;
-    std::uint32_t relief_seed_;  ///< of the relief of limbs
+    std::uint32_t relief_seed_;  ///< of the relief of segments
     SweepOptions options_;
     std::vector<double> represented_;
     double colour_exponent_ = 1.0;

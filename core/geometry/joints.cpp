@@ -258,9 +258,9 @@ void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tu
         const double most = solids[tube].free_at(place), reach = 3.0 * solids[tube].thickest();
         if (!(most < reach)) return place;
         Nearness nearest;
-        for (const std::size_t bearer : {tubes[tube].parent, grandparent(tubes, tube)}) {
-            if (bearer == Tube::none || !solids[bearer].may_reach(place, reach)) continue;
-            const Nearness near = solids[bearer].near(place, reach, sections);
+        for (const std::size_t older : {tubes[tube].parent, grandparent(tubes, tube)}) {
+            if (older == Tube::none || !solids[older].may_reach(place, reach)) continue;
+            const Nearness near = solids[older].near(place, reach, sections);
             if (near.distance < nearest.distance) nearest = near;
         }
         const double above = nearest.distance - most;

@@ -238,7 +238,7 @@ void set_painting(const MushroomParams& params, const SpeciesShare& part, const 
     double& roughness = painting.surface.cap.roughness;
     roughness += model.material.velvet * (0.95 - roughness);
     painting.weathering = painted_of(model.weathering);
-    // All limbs share one image, in which a pit would be on each of them; slugs eat their tips.
+    // All segments share one image, in which a pit would be on each of them; slugs eat their tips.
     if (std::holds_alternative<Branched>(model.shape)) painting.weathering.bites = 0.0;
     if (painting.weathering == PaintedWeathering<Plain>{}) return;
     painting.damage_seed = damage_seed(params.seed, stream_of(part.id));

@@ -1,4 +1,4 @@
-#include "core/geometry/limb_relief.h"
+#include "core/geometry/segment_relief.h"
 
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@
 
 #include "core/math/elementary.h"
 
-namespace sporeprint::geometry_limb_relief_test {
+namespace sporeprint::geometry_segment_relief_test {
 namespace {
 
 constexpr std::uint32_t sides = 24;
 constexpr double radius = 0.01;
 
 /// An upright tube of 41 rings, a fifth of a radius apart, from a place on.
-struct Limb {
+struct Segment {
     Mesh mesh;
     std::vector<Tube> tubes;
 
@@ -41,31 +41,31 @@ struct Limb {
     }
 };
 
-TEST(LimbRelief, IsNothingWithoutGnarl) {
-    Limb limb;
-    limb.add({0.0, 0.0, 0.0});
-    const Mesh before = limb.mesh;
-    add_limb_relief(limb.mesh, limb.tubes, 0.0, radius, 1);
-    EXPECT_EQ(limb.mesh.positions, before.positions);
-    EXPECT_EQ(limb.mesh.normals, before.normals);
+TEST(SegmentRelief, IsNothingWithoutGnarl) {
+    Segment segment;
+    segment.add({0.0, 0.0, 0.0});
+    const Mesh before = segment.mesh;
+    add_segment_relief(segment.mesh, segment.tubes, 0.0, radius, 1);
+    EXPECT_EQ(segment.mesh.positions, before.positions);
+    EXPECT_EQ(segment.mesh.normals, before.normals);
 }
 
-TEST(LimbRelief, RaisesAndSinksTheSkinAndTurnsItsNormals) {
-    Limb limb;
-    limb.add({0.003, 0.0, 0.007});
-    const Mesh before = limb.mesh;
-    add_limb_relief(limb.mesh, limb.tubes, 0.5, radius, 1);
+TEST(SegmentRelief, RaisesAndSinksTheSkinAndTurnsItsNormals) {
+    Segment segment;
+    segment.add({0.003, 0.0, 0.007});
+    const Mesh before = segment.mesh;
+    add_segment_relief(segment.mesh, segment.tubes, 0.5, radius, 1);
     double least = 0.0, most = 0.0, turned = 1.0;
     for (std::size_t i = 0; i < before.positions.size(); ++i) {
         const glm::dvec3 normal(before.normals[i]);
         const glm::dvec3 moved =
-            glm::dvec3(limb.mesh.positions[i]) - glm::dvec3(before.positions[i]);
+            glm::dvec3(segment.mesh.positions[i]) - glm::dvec3(before.positions[i]);
         const double raised = glm::dot(moved, normal);
         EXPECT_NEAR(glm::length(moved), std::abs(raised), 1e-4 * radius);
-        EXPECT_NEAR(glm::length(glm::dvec3(limb.mesh.normals[i])), 1.0, 1e-5);
+        EXPECT_NEAR(glm::length(glm::dvec3(segment.mesh.normals[i])), 1.0, 1e-5);
         least = std::min(least, raised);
         most = std::max(most, raised);
-        turned = std::min(turned, glm::dot(glm::dvec3(limb.mesh.normals[i]), normal));
+        turned = std::min(turned, glm::dot(glm::dvec3(segment.mesh.normals[i]), normal));
     }
     EXPECT_GT(most, 0.05 * radius);
     EXPECT_LT(most, 0.5 * radius);
@@ -75,17 +75,17 @@ TEST(LimbRelief, RaisesAndSinksTheSkinAndTurnsItsNormals) {
     EXPECT_GT(turned, 0.3);
 }
 
-TEST(LimbRelief, IsTheSameOnTubesThatCoincide) {
-    Limb limb;
-    limb.add({0.0, 0.0, 0.0});
-    limb.add({0.0, 0.0, 0.0});
-    add_limb_relief(limb.mesh, limb.tubes, 1.0, radius, 7);
-    const std::size_t half = limb.mesh.positions.size() / 2;
+TEST(SegmentRelief, IsTheSameOnTubesThatCoincide) {
+    Segment segment;
+    segment.add({0.0, 0.0, 0.0});
+    segment.add({0.0, 0.0, 0.0});
+    add_segment_relief(segment.mesh, segment.tubes, 1.0, radius, 7);
+    const std::size_t half = segment.mesh.positions.size() / 2;
     for (std::size_t i = 0; i < half; ++i) {
-        EXPECT_EQ(limb.mesh.positions[i], limb.mesh.positions[half + i]);
-        EXPECT_EQ(limb.mesh.normals[i], limb.mesh.normals[half + i]);
+        EXPECT_EQ(segment.mesh.positions[i], segment.mesh.positions[half + i]);
+        EXPECT_EQ(segment.mesh.normals[i], segment.mesh.normals[half + i]);
     }
 }
 
 }  // namespace
-}  // namespace sporeprint::geometry_limb_relief_test
+}  // namespace sporeprint::geometry_segment_relief_test

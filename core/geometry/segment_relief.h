@@ -1,4 +1,4 @@
-// The relief of limbs: swellings, ribs and wrinkles along the tubes of a branch graph.
+// The relief of segments: swellings, ribs and wrinkles along the tubes of a branch graph.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace sporeprint {
 /// gnarl         0..1, see SegmentStyle
 /// trunk_radius  metres: swellings are about as large
 /// cost          O(vertices)
-void add_limb_relief(Mesh& mesh, const std::vector<Tube>& tubes, double gnarl, double trunk_radius,
-                     std::uint32_t seed);
+void add_segment_relief(Mesh& mesh, const std::vector<Tube>& tubes, double gnarl,
+                        double trunk_radius, std::uint32_t seed);
 
 }  // namespace sporeprint

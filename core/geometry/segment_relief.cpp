@@ -1,4 +1,4 @@
-#include "core/geometry/limb_relief.h"
+#include "core/geometry/segment_relief.h"
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Octave {
 };
 constexpr std::array<Octave, 3> octaves = {{{2.1, 0.55}, {0.8, 0.45}, {0.33, 0.2}}};
 
-/// How much longer than wide swellings are: limbs are ribbed along, and they stand upright.
+/// How much longer than wide swellings are: segments are ribbed along, and they stand upright.
 constexpr double upright = 2.2;
 
 /// Distance over which slopes of an octave are taken, in its wavelength.
@@ -50,8 +50,8 @@ class Samples {
 
 }  // namespace
 
-void add_limb_relief(Mesh& mesh, const std::vector<Tube>& tubes, double gnarl, double trunk_radius,
-                     std::uint32_t seed) {
+void add_segment_relief(Mesh& mesh, const std::vector<Tube>& tubes, double gnarl,
+                        double trunk_radius, std::uint32_t seed) {
     if (!(gnarl > 0.0) || !(trunk_radius > 0.0)) return;
     std::vector<std::size_t> vertices;
     std::vector<double> radii;
