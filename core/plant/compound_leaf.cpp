@@ -15,7 +15,7 @@ namespace {
 
 // Radii of the axis at the far end of the petiole, at the lowest leaflets and at its tip, in its
 // lengths; no source or measurement is recorded.
-constexpr double foot_radius = 0.011, root_radius = 0.008, tip_radius = 0.002;
+constexpr double foot_radius = 0.0085, root_radius = 0.006, tip_radius = 0.0016;
 
 // Bend of a leaflet in that of the axis.
 constexpr double leaflet_curl = 0.4;

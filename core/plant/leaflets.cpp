@@ -17,7 +17,7 @@ constexpr double least_size = 0.05, leaning = 0.45;
 
 // How unlike leaflets are: how much shorter the shortest is than its place requires, how far they stand
 // from their place, in the distance of two, and how far they turn from their angles, in degrees.
-constexpr double shorter = 0.1, moved = 0.5, opened_deg = 9.0, turned_deg = 12.0;
+constexpr double shorter = 0.2, moved = 0.7, opened_deg = 13.0, turned_deg = 20.0;
 
 // Returns -1..1 for the n-th of many things.
 //

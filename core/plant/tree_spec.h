@@ -142,7 +142,7 @@ void without_unused_rows(TreeParams& params);
 
 /// Returns the leaf of which a tree has many copies: a preset without overrides, at the tree's
 /// moment of the year and with images of the tree's size. Its images are those of that leaf as a
-/// product of its own.
+/// product of its own that nothing has eaten or marked, since all copies show them.
 ///
 /// preset  that of params.look.leaf
 [[nodiscard]] LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset);
