@@ -11,7 +11,9 @@
 
 #include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
+#include "core/plant/leaf_shell.h"
 #include "tests/support/atlas.h"
+#include "tests/support/meshes.h"
 
 namespace sporeprint::plant_foliage_test {
 namespace {
@@ -63,6 +65,17 @@ TEST(FoliageLevels, VerticesOfALeafAreCountedWithoutIt) {
             const Mesh leaf = foliage_leaf(preset.shape, triangles);
             EXPECT_EQ(leaf.positions.size(), leaf_vertices(triangles));
             EXPECT_EQ(leaf.triangles(), triangles);
+        }
+}
+
+TEST(FoliageLevels, FinestLeavesAreValidAndHaveNoMoreVerticesThanCounted) {
+    for (const LeafPreset& preset : atlas().leaves())
+        for (const std::size_t triangles : {4u, 8u, 12u, 16u}) {
+            SCOPED_TRACE(preset.id.string() + std::to_string(triangles));
+            const Mesh leaf = finest_foliage_leaf(preset.shape, triangles);
+            expect_valid(leaf);
+            EXPECT_EQ(leaf.triangles(), triangles);
+            EXPECT_LE(leaf.positions.size(), finest_leaf_vertices(triangles));
         }
 }
 
