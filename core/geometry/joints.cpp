@@ -32,6 +32,10 @@ constexpr double begins_after = 0.9;
 /// out of its parent as a ridge, and its first section is never seen as a step or an open end.
 constexpr double sunk_at_first = -0.12, rises = 0.12, rises_faster = 0.3;
 
+/// Up to which share of its reach a tube sinks fully into an older one, and the difference of the
+/// distances of two older ones, in reaches, over which it passes from one to the other.
+constexpr double sinks_within = 0.6, shared_sinking = 0.1;
+
 /// How far a tube may stand out of its parent where its fillet is whole, in its radius there.
 constexpr double fillet_free = 0.35;
 
@@ -253,18 +257,27 @@ void blend_joints(Mesh& mesh, std::vector<double>& colours, const std::vector<Tu
             return Dependence{0.5 * its, its_fillet};
         return Dependence{0.5 * own * its, own_fillet * its_fillet};
     };
-    // Returns a place of a tube, moved into its parent, or that one's, where it begins.
+    // Returns a place of a tube, moved into its parent, or that one's, where it begins. Between the two
+    // it is moved towards either by its share, so that no place jumps while one becomes the nearer.
     const auto sunk = [&](std::size_t tube, const glm::dvec3& place) {
         const double most = solids[tube].free_at(place), reach = 3.0 * solids[tube].thickest();
         if (!(most < reach)) return place;
-        Nearness nearest;
-        for (const std::size_t older : {tubes[tube].parent, grandparent(tubes, tube)}) {
-            if (older == Tube::none || !solids[older].may_reach(place, reach)) continue;
-            const Nearness near = solids[older].near(place, reach, sections);
-            if (near.distance < nearest.distance) nearest = near;
+        std::array<Nearness, 2> found;
+        const std::array<std::size_t, 2> older = {tubes[tube].parent, grandparent(tubes, tube)};
+        for (std::size_t k = 0; k < 2; ++k)
+            if (older[k] != Tube::none && solids[older[k]].may_reach(place, reach))
+                found[k] = solids[older[k]].near(place, reach, sections);
+        const auto clear = [&](std::size_t k) { return std::min(found[k].distance, reach); };
+        const double softness = shared_sinking * reach;
+        const double second = smooth_step(-softness, softness, clear(0) - clear(1));
+        glm::dvec3 moved(0.0);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double distance = clear(k), share = k == 0 ? 1.0 - second : second;
+            const double above = std::max(distance - most, 0.0);
+            const double within = 1.0 - smooth_step(sinks_within * reach, reach, distance);
+            if (share * above * within > 0.0) moved += share * above * within * found[k].gradient;
         }
-        const double above = nearest.distance - most;
-        return above > 0.0 && nearest.distance < reach ? place - above * nearest.gradient : place;
+        return place - moved;
     };
     const auto blend = [&](std::size_t tube, double radius, std::size_t vertex) {
         const glm::dvec3 place = sunk(tube, glm::dvec3(mesh.positions[vertex]));
