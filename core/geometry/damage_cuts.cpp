@@ -25,15 +25,16 @@ constexpr double merge_distance = 0.0002;
 // Share of a cut's damage from which on its columns stand at their own places.
 constexpr double open_at = 0.12;
 
-// Numbers of cuts at a level of detail, which the species of a mix share; `inside`: columns on each side of a bite's middle: one
-// beside its end, one at its cusp; `long_splits`: how many splits, if they are long enough, have a column in the middle of
-// each lip beside those at the tip and on the margin. A pair of species needs all of its triangles:
-// more columns would coarsen its other parts.
+// Numbers of cuts at a level of detail, which the species of a mix share; `inside`: columns on each
+// side of a bite's middle: one beside its end, one at its cusp; `pair_splits`: splits of a pair, for
+// the five of each species that are open at most by its data; `long_splits`: how many splits, if they
+// are long enough, have a column in the middle of each lip beside those at the tip and on the margin.
+// A pair of species needs all of its triangles: more columns would coarsen its other parts.
 struct LodLimits {
-    int bites, inside, splits, long_splits;
+    int bites, inside, splits, pair_splits, long_splits;
 };
 constexpr std::array<LodLimits, 4> limits_by_lod = {
-    {{4, 2, 7, 3}, {2, 0, 2, 0}, {2, 0, 0, 0}, {0, 0, 0, 0}}};
+    {{4, 2, 7, 10, 3}, {2, 0, 2, 2, 0}, {2, 0, 0, 0, 0}, {0, 0, 0, 0, 0}}};
 // Least depth of such a split, in radii of the cap.
 constexpr double long_split = 0.2;
 // How far the lips of a split are raised at most, in radii of the cap.
@@ -57,10 +58,11 @@ std::vector<SizedNotch> notches_of(const Individual& individual, const LodLimits
         for (std::size_t i = 0; i < std::min(drawn.size(), most); ++i)
             out.push_back({drawn[i], begun(drawn[i].onset, amount)});
     };
+    const int all_splits = all.size() == 2 ? limits.pair_splits : limits.splits;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const std::uint32_t seed = damage_seed(individual.painted_seed, all[k].stream);
         const std::size_t most_bites = own_share(limits.bites, all, k, &MarginDamage::can_bite),
-                          most_splits = own_share(limits.splits, all, k, &MarginDamage::can_split);
+                          most_splits = own_share(all_splits, all, k, &MarginDamage::can_split);
         if (most_bites > 0) add(bites(seed), most_bites, all[k].bites);
         if (most_splits > 0) add(splits(seed), most_splits, all[k].splits);
     }
