@@ -449,6 +449,41 @@ std::vector<Camera> cameras_of(const DrawList& list, const PictureParams& params
     return fitted_cameras(list, axes, aspect, lowest);
 }
 
+/// Returns the height to which the bark of a scene's wood reaches down, if it has wood, in the median
+/// over its sides: what is torn out of its lower end farther down is in the ground.
+std::optional<float> foot_of_wood(const DrawList& list) {
+    constexpr std::size_t sides = 12;
+    constexpr float of_bark = 0.9F;  // from which share of its greatest radius on it is bark
+    std::optional<float> foot;
+    for (const Draw& draw : list.draws) {
+        if (draw.role != GlbRole::carrier || draw.mesh->positions.empty()) continue;
+        glm::vec3 middle(0.0F);
+        for (const glm::vec3& own : draw.mesh->positions) middle += draw.placement.point(own);
+        middle *= 1.0F / static_cast<float>(draw.mesh->positions.size());
+        std::array<float, sides> radius{}, lowest{};
+        const auto each = [&](auto&& visit) {
+            for (const glm::vec3& own : draw.mesh->positions) {
+                const glm::vec3 at = draw.placement.point(own);
+                const float x = at.x - middle.x, z = at.z - middle.z;
+                const double turn =
+                    arc_tangent(static_cast<double>(x), static_cast<double>(z)) / (2.0 * pi);
+                visit(static_cast<std::size_t>((turn - std::floor(turn)) * sides) % sides,
+                      std::sqrt(x * x + z * z), at.y);
+            }
+        };
+        each([&](std::size_t side, float far, float) {
+            radius[side] = std::max(radius[side], far);
+        });
+        lowest.fill(list.box.max.y);
+        each([&](std::size_t side, float far, float y) {
+            if (far >= of_bark * radius[side]) lowest[side] = std::min(lowest[side], y);
+        });
+        std::sort(lowest.begin(), lowest.end());
+        foot = std::min(foot.value_or(lowest[sides / 2]), lowest[sides / 2]);
+    }
+    return foot;
+}
+
 /// Returns the height of the ground of a picture, if it has one.
 std::optional<float> ground_of(const DrawList& list, const PictureParams& params) {
     if (params.view == View::below || params.view == View::underside) return std::nullopt;
@@ -459,11 +494,7 @@ std::optional<float> ground_of(const DrawList& list, const PictureParams& params
         if (list.box.min.y <= -deepest_clod * list.box.max.y) return std::nullopt;
         return 0.0F;
     }
-    // A piece of wood with a bracket lies on its lower end.
-    const bool has_wood = std::any_of(list.draws.begin(), list.draws.end(), [](const Draw& draw) {
-        return draw.role == GlbRole::carrier;
-    });
-    return has_wood ? std::optional(list.box.min.y) : std::nullopt;
+    return foot_of_wood(list);
 }
 
 }  // namespace
