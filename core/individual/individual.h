@@ -66,8 +66,8 @@ struct GroundLayer {
     bool operator==(const GroundLayer&) const = default;
 };
 
-/// What cuts and peels the margin of one species: amounts times its weight, and which kinds can
-/// occur at any age.
+/// What cuts and peels the margin of one species: its weight's part of the amounts of the individual,
+/// and which kinds can occur at any age.
 struct MarginDamage {
     std::uint32_t stream = 0;  ///< of the species in random streams
     double bites = 0.0, splits = 0.0, peel = 0.0;

@@ -117,19 +117,15 @@ DamageAmounts damage_amounts_of(const std::vector<Source>& sources,
                                 const WeatheringOf<Maybe>& requested) {
     using Amount = double WeatheringOf<Plain>::*;
     DamageAmounts damage;
-    const auto possible = [](const Source& source, Amount amount,
-                             const std::optional<double>& wanted) {
-        return (wanted && *wanted > 0.0) ||
-               std::any_of(source.stages.begin(), source.stages.end(),
-                           [&](const Model* stage) { return stage->weathering.*amount > 0.0; });
-    };
     const auto lay = [&](Amount amount, const std::optional<double>& wanted, auto able) {
         bool can = false;
         double& sum = damage.amounts.*amount;
         for (const Source& source : sources) {
             if (!able(source)) continue;
             sum += source.weight * (source.now.weathering.*amount);
-            can = can || possible(source, amount, wanted);
+            can = can || (wanted && *wanted > 0.0) ||
+                  std::any_of(source.stages.begin(), source.stages.end(),
+                              [&](const Model* stage) { return stage->weathering.*amount > 0.0; });
         }
         return can;
     };
@@ -144,18 +140,28 @@ DamageAmounts damage_amounts_of(const std::vector<Source>& sources,
     damage.splits = lay(&W::splits, requested.splits, margin);
     damage.melts =
         lay(&W::deliquescence, requested.deliquescence, [](const Source& s) { return s.melts(); });
-    damage.peels = lay(&W::peel, requested.peel, [](const Source& s) { return s.peels(); });
+    const auto peels = [](const Source& s) { return s.peels(); };
+    damage.peels = lay(&W::peel, requested.peel, peels);
     damage.dew = lay(&W::dew, requested.dew, all);
+    // Each species has its weight's part of the sum, so that the effective amounts of a mix, requested
+    // of all of its species, have the same mesh.
+    const auto part = [&](Amount amount, auto able) {
+        double able_weight = 0.0;
+        for (const Source& source : sources)
+            if (able(source)) able_weight += source.weight;
+        return able_weight > 0.0 ? damage.amounts.*amount / able_weight : 0.0;
+    };
+    const double bites = part(&W::bites, all), splits = part(&W::splits, margin),
+                 peel = part(&W::peel, peels);
     for (const Source& source : sources) {
-        const W& now = source.now.weathering;
         MarginDamage& own = damage.margins.emplace_back();
         own.stream = stream_of(source.id);
-        own.can_bite = possible(source, &W::bites, requested.bites);
-        own.can_split = margin(source) && possible(source, &W::splits, requested.splits);
-        own.can_peel = source.peels() && possible(source, &W::peel, requested.peel);
-        if (own.can_bite) own.bites = source.weight * now.bites;
-        if (own.can_split) own.splits = source.weight * now.splits;
-        if (own.can_peel) own.peel = source.weight * now.peel;
+        own.can_bite = damage.bites;
+        own.can_split = damage.splits && margin(source);
+        own.can_peel = damage.peels && peels(source);
+        own.bites = source.weight * bites;
+        if (own.can_split) own.splits = source.weight * splits;
+        if (own.can_peel) own.peel = source.weight * peel;
     }
     return damage;
 }
