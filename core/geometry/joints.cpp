@@ -1,6 +1,7 @@
 #include "core/geometry/joints.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

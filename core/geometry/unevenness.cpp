@@ -18,11 +18,11 @@ constexpr double beside = 0.06;
 constexpr std::array<double, 4> of_sides{0.05, 0.066, 0.035, 0.02};
 constexpr std::array<double, 3> of_lifts{0.03, 0.05, 0.035};
 /// Of the winding, in lengths of the stem and, at most, in radii.
-constexpr std::array<double, 4> of_winding{0.016, 0.009, 0.004, 0.0025};
+constexpr std::array<double, 4> of_winding{0.016, 0.008, 0.003, 0.0015};
 constexpr std::array<double, 4> most_winding{0.55, 0.45, 0.1, 0.07};
-constexpr std::array<double, 4> of_swelling{0.1, 0.07, 0.045, 0.035};
+constexpr std::array<double, 4> of_swelling{0.1, 0.06, 0.028, 0.02};
 /// Of the cross section of the stem: the part that is the same all along it, and that of its waves.
-constexpr std::array<double, 2> of_ovals{0.05, 0.03}, of_oval_waves{0.075, 0.05};
+constexpr std::array<double, 2> of_ovals{0.04, 0.025}, of_oval_waves{0.055, 0.035};
 /// How often the cross section changes along the stem, in waves.
 constexpr std::array<double, 2> oval_waves{1.3, 2.1};
 /// Least height over which the margin lifts, in greatest radii.

@@ -168,8 +168,9 @@ TEST_F(TreesTest, LinkedImagesAreThoseEmbedded) {
     EXPECT_EQ(bark, 3);
     EXPECT_EQ(leaves, 3);
     EXPECT_EQ(service_.counters().painted, 2u);
-    // The images that a tree painted are those of its leaf alone.
-    const Response leaf = ask("/v1/leaves/oak.glb?lod=3&texture_size=128&autumn=0.4");
+    // The images that a tree painted are those of its leaf alone, without holes and marks.
+    const Response leaf =
+        ask("/v1/leaves/oak.glb?lod=3&texture_size=128&autumn=0.4&eaten=0&marks=0");
     EXPECT_EQ(header(leaf, "Cache-Status"), "sporeprint-images; hit, sporeprint; fwd=miss; stored");
     EXPECT_NE(header(ask("/v1/trees/birch/orm.jpg"), "Content-Disposition").find("-orm.jpg"),
               std::string::npos);
