@@ -96,13 +96,21 @@ void refuse_beyond_bounds(const Tree& tree) {
             problems.front().message);
 }
 
+/// The colours of a crown: hues of leaves and bark, and the shade between leaves.
+struct CrownColour {
+    TreeTints tints;
+    CrownShade shade;
+
+    CrownColour(const Tree& tree, double hue_spread, std::uint32_t seed)
+        : tints(tree, hue_spread, seed), shade(tree) {}
+};
+
 /// Adds leaves as the request repeats them.
 ///
 /// sway   of the tree; null for leaves without it
-/// tints  of the tree; null for leaves of one hue
-/// crown  the shade of its crown
+/// colour  of the tree; null for leaves of one hue, which have no shade
 void add_leaves(TreeMeshes& meshes, Foliage foliage, const TreeParams& params, const TreeSway* sway,
-                const TreeTints* tints, const CrownShade& crown) {
+                const CrownColour* colour) {
     if (foliage.leaves.empty()) return;
     double share = 1.0;
     float shade = 1.0F;
@@ -116,20 +124,22 @@ void add_leaves(TreeMeshes& meshes, Foliage foliage, const TreeParams& params, c
                 {params.size * one.place,
                  quaternion_of({glm::cross(one.up, one.along), one.up, one.along}),
                  one.size * glm::dvec3(one.breadth, one.thickness, 1.0),
-                 tints
-                     ? shade * static_cast<float>(crown.at(one.place)) * tints->of_leaf(one, share)
-                     : glm::vec3(1.0F)});
+                 colour ? shade * static_cast<float>(colour->shade.at(one.place)) *
+                              colour->tints.of_leaf(one, share)
+                        : glm::vec3(1.0F)});
         meshes.leaves = std::move(foliage.leaf);
     } else {
         meshes.leaves = merged_leaves(foliage.leaves, foliage.leaf);
         if (sway) meshes.leaves.sway = sway_of(foliage.leaves, foliage.leaf, *sway);
-        if (tints)
-            meshes.leaves.tints =
-                tints_of(foliage.leaves, foliage.leaf.positions.size(), *tints, share);
-        const std::size_t corners = foliage.leaf.positions.size();
-        for (std::size_t i = 0; i < meshes.leaves.tints.size(); ++i)
-            meshes.leaves.tints[i] *=
-                shade * static_cast<float>(crown.at(foliage.leaves[i / corners].place));
+        if (colour) {
+            const std::size_t corners = foliage.leaf.positions.size();
+            meshes.leaves.tints = tints_of(foliage.leaves, corners, colour->tints, share);
+            auto tint = meshes.leaves.tints.begin();
+            for (const PlacedLeaf& one : foliage.leaves) {
+                const float light = shade * static_cast<float>(colour->shade.at(one.place));
+                for (std::size_t i = 0; i < corners; ++i) *tint++ *= light;
+            }
+        }
     }
     finish(meshes.leaves, params);
 }
@@ -397,9 +407,8 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
         wind.flutter =
             leaf_flutter * params.size * params.look.leaves.leaf_size * leaf.shape.length;
     }
-    std::optional<TreeTints> tints;
-    if (has_tints(params)) tints.emplace(tree, params.look.leaves.hue_spread, params.seed);
-    const CrownShade crown(tree);
+    std::optional<CrownColour> colour;
+    if (has_tints(params)) colour.emplace(tree, params.look.leaves.hue_spread, params.seed);
     const double flare = params.look.shape.root_flare;
     std::vector<TreeMeshes> levels;
     for (const int lod : mesh_levels_of(params)) {
@@ -418,14 +427,14 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
             foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);
         }
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
-        if (tints) bark.mesh.tints = tints_of(bark, *tints);
-        if (tints && lod < first_far_lod)
+        if (colour) bark.mesh.tints = tints_of(bark, colour->tints);
+        if (colour && lod < first_far_lod)
             tint_foot(bark.mesh.tints, bark, tree, flare, params.seed, lod,
                       blackness_of_foot(params.look.bark), mean_light_of(params.look.bark));
         TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);
         add_leaves(meshes, std::move(foliage), params, sway ? &*sway : nullptr,
-                   tints ? &*tints : nullptr, crown);
+                   colour ? &*colour : nullptr);
         levels.push_back(std::move(meshes));
     }
     return levels;

@@ -95,17 +95,22 @@ glm::dvec2 cell_middle(int x, int y, std::uint32_t salt) {
     return {x + inset + scale * (mixed & 0xFFFFU), y + inset + scale * (mixed >> 16U)};
 }
 
-// Returns the distance from the nearest wall between two cells, in cells.
-//
-// source  [Worley1996], with the distance from the line half-way between the two nearest points
-double from_wall(const Network& net, double abscissa, double height, std::uint32_t seed) {
-    const glm::dvec2 at(net.along * abscissa, net.up * height);
-    const auto x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
-    glm::dvec2 nearest(0.0), second(0.0);
-    double least = 1e9, next = 1e9;
-    for (int i = -1; i <= 1; ++i)
-        for (int k = -1; k <= 1; ++k) {
-            const glm::dvec2 away = cell_middle(x + i, y + k, net.salt + seed) - at;
+// Finds the walls between the cells of a network. It keeps the middles round the last place: most
+// texels of a row are in the cell of the one before.
+class Walls {
+  public:
+    explicit Walls(const Network& net) : net_(&net) {}
+
+    // Returns how far the line of a wall is at a place, 0..1, times the network's share.
+    //
+    // source  [Worley1996], with the distance from the line half-way between the two nearest points
+    double at(double abscissa, double height, std::uint32_t seed) {
+        const glm::dvec2 at(net_->along * abscissa, net_->up * height);
+        look_round(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)), seed);
+        glm::dvec2 nearest(0.0), second(0.0);
+        double least = 1e9, next = 1e9;
+        for (const glm::dvec2& middle : middles_) {
+            const glm::dvec2 away = middle - at;
             const double square = glm::dot(away, away);
             if (square < least) {
                 next = least;
@@ -117,18 +122,42 @@ double from_wall(const Network& net, double abscissa, double height, std::uint32
                 second = away;
             }
         }
-    return 0.5 * (next - least) / std::max(glm::length(second - nearest), 1e-6);
-}
+        const double distance =
+            0.5 * (next - least) / std::max(glm::length(second - nearest), 1e-6);
+        return line_profile(distance, net_->width) * net_->share;
+    }
+
+  private:
+    const Network* net_;
+    int x_ = 0, y_ = 0;
+    std::uint32_t seed_ = 0;
+    bool is_empty_ = true;
+    std::array<glm::dvec2, 9> middles_{};
+
+    void look_round(int x, int y, std::uint32_t seed) {
+        if (!is_empty_ && x == x_ && y == y_ && seed == seed_) return;
+        auto middle = middles_.begin();
+        for (int i = -1; i <= 1; ++i)
+            for (int k = -1; k <= 1; ++k) *middle++ = cell_middle(x + i, y + k, net_->salt + seed);
+        x_ = x;
+        y_ = y;
+        seed_ = seed;
+        is_empty_ = false;
+    }
+};
+
+// The veins of third order and the net between them, of one row.
+struct FineVeins {
+    Walls rungs{ladder}, net{meshes};
+};
 
 // Returns how far a vein of third order or the net is at a place, 0..1. Both halves have their own.
-double net_at(const LaminaPlace& place, double bend) {
+double net_at(const LaminaPlace& place, double bend, FineVeins& veins) {
     if (place.affinity >= 1.0) return 0.0;
     const auto half = static_cast<std::uint32_t>(2 * place.lobe + place.side);
     const double height = place.height + bend, abscissa = place.abscissa - 0.15 * place.height;
-    const double rung =
-        line_profile(from_wall(ladder, abscissa, height, 97 * half), ladder.width) * ladder.share;
-    const double mesh =
-        line_profile(from_wall(meshes, abscissa, height, 97 * half), meshes.width) * meshes.share;
+    const double rung = veins.rungs.at(abscissa, height, 97 * half);
+    const double mesh = veins.net.at(abscissa, height, 97 * half);
     return std::max(rung, mesh) * (1.0 - smooth_step(0.92, 1.0, place.affinity));
 }
 
@@ -424,6 +453,7 @@ class LeafPainter {
         std::size_t from = 0;
         std::vector<float> spots, cells;
         LaminaSampler::Hint hint;
+        FineVeins veins;
     };
 
     // Colour, occlusion and roughness.
@@ -515,7 +545,7 @@ class LeafPainter {
     [[nodiscard]] Line line_at(std::size_t line, const Span& span) const {
         bool upper = false;
         const double y = chart_.place({0.0, along(line)}, upper).y;
-        return {y, span.first * points_, noise(0, y, span), noise(1, y, span), {}};
+        return {y, span.first * points_, noise(0, y, span), noise(1, y, span), {}, {}};
     }
 
     // Both faces show the same positions and blotches go through the leaf, so each point is looked
@@ -529,7 +559,8 @@ class LeafPainter {
                                          line.y + vein_wander * broad_ * blotch},
                                         line.hint);
         const double depth = vein_depth(place);
-        if (net_ > 0.0) place.net = net_ * net_at(place, net_wander * blotch + 0.002 * cell);
+        if (net_ > 0.0)
+            place.net = net_ * net_at(place, net_wander * blotch + 0.002 * cell, line.veins);
         const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
         LeafColourMap::Faces faces = colour_map_.at(place, own);
         const double yellow = 0.6 * blotch, rim_yellow = smooth_step(0.6, 1.0, place.affinity);
