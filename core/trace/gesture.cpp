@@ -1,0 +1,60 @@
+#include "core/trace/gesture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace sporeprint::trace {
+
+namespace {
+
+double distance_from_segment(const glm::dvec2& point, const glm::dvec2& from,
+                             const glm::dvec2& to) {
+    const glm::dvec2 along = to - from;
+    const double square = glm::dot(along, along);
+    const double t =
+        square > 0.0 ? std::clamp(glm::dot(point - from, along) / square, 0.0, 1.0) : 0.0;
+    return glm::length(point - from - t * along);
+}
+
+}  // namespace
+
+Gesture Gesture::scaled(double factor) const {
+    Gesture other = *this;
+    const auto scale = [factor](Stroke& stroke) {
+        for (glm::dvec2& point : stroke) point *= factor;
+    };
+    scale(other.axis);
+    scale(other.cap);
+    std::for_each(other.keep.begin(), other.keep.end(), scale);
+    std::for_each(other.drop.begin(), other.drop.end(), scale);
+    if (other.frame) {
+        other.frame->from *= factor;
+        other.frame->to *= factor;
+    }
+    return other;
+}
+
+Mask drawn(const std::vector<Stroke>& strokes, int columns, int rows, double width) {
+    Mask mask(columns, rows);
+    const double reach = 0.5 * width;
+    const auto draw = [&](const glm::dvec2& from, const glm::dvec2& to) {
+        const auto first = [&](double a, double b) {
+            return static_cast<int>(std::floor(std::max(std::min(a, b) - reach, 0.0)));
+        };
+        const auto last = [&](double a, double b, int size) {
+            return static_cast<int>(std::min(std::max(a, b) + reach, size - 1.0));
+        };
+        for (int y = first(from.y, to.y); y <= last(from.y, to.y, rows); ++y)
+            for (int x = first(from.x, to.x); x <= last(from.x, to.x, columns); ++x)
+                if (distance_from_segment({x + 0.5, y + 0.5}, from, to) <= reach)
+                    mask.inside[mask.index(x, y)] = 1;
+    };
+    for (const Stroke& stroke : strokes) {
+        if (stroke.size() == 1) draw(stroke[0], stroke[0]);
+        for (std::size_t i = 0; i + 1 < stroke.size(); ++i) draw(stroke[i], stroke[i + 1]);
+    }
+    return mask;
+}
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,36 @@
+// What a person draws on a photograph to say where the mushroom is.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/trace/photo.h"
+
+namespace sporeprint::trace {
+
+/// A stroke through points in pixels of the photograph, from its upper left corner.
+using Stroke = std::vector<glm::dvec2>;
+
+/// A rectangle in pixels of the photograph.
+struct PhotoFrame {
+    glm::dvec2 from{0.0}, to{0.0};  ///< upper left and lower right corner
+};
+
+/// The T gesture: a line from the foot to the top and one across the cap, and what corrects them.
+struct Gesture {
+    Stroke axis;                      ///< from the foot to the top, at least two points
+    Stroke cap;                       ///< across the cap; may be empty
+    std::vector<Stroke> keep, drop;   ///< on the mushroom; on what is none of it
+    std::optional<PhotoFrame> frame;  ///< what is outside is background
+
+    /// Returns the same gesture on a photograph of another size.
+    [[nodiscard]] Gesture scaled(double factor) const;
+};
+
+/// Returns the pixels within half a width of strokes; what lies beyond the border is left out.
+///
+/// width  of the strokes, pixels
+[[nodiscard]] Mask drawn(const std::vector<Stroke>& strokes, int columns, int rows, double width);
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,147 @@
+#include "core/trace/photo.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace sporeprint::trace {
+
+namespace {
+
+/// A stretch of pixels of the original, and the share of each that a pixel of the copy covers.
+struct Cover {
+    int first = 0;
+    std::vector<double> shares;  // their sum is 1
+};
+
+std::vector<Cover> covers(int from, int to) {
+    std::vector<Cover> found(static_cast<std::size_t>(to));
+    const double step = static_cast<double>(from) / to;
+    for (int i = 0; i < to; ++i) {
+        Cover& cover = found[static_cast<std::size_t>(i)];
+        const double begin = i * step, end = std::min((i + 1) * step, static_cast<double>(from));
+        cover.first = static_cast<int>(std::floor(begin));
+        for (int k = cover.first; k < end && k < from; ++k)
+            cover.shares.push_back((std::min(end, k + 1.0) - std::max(begin, k * 1.0)) / step);
+    }
+    return found;
+}
+
+constexpr std::array<std::array<int, 2>, 4> beside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+/// Marks all pixels that hang together with those of a list and have a value in a mask.
+void flood(const Mask& mask, bool value, std::vector<std::array<int, 2>> open, Mask& reached) {
+    while (!open.empty()) {
+        const auto [x, y] = open.back();
+        open.pop_back();
+        for (const auto& [dx, dy] : beside) {
+            const int u = x + dx, v = y + dy;
+            if (u < 0 || v < 0 || u >= mask.width || v >= mask.height) continue;
+            if (mask.at(u, v) != value || reached.at(u, v)) continue;
+            reached.inside[reached.index(u, v)] = 1;
+            open.push_back({u, v});
+        }
+    }
+}
+
+}  // namespace
+
+Picture reduced(const Picture& photo, int side) {
+    const int longest = std::max(photo.width, photo.height);
+    if (longest <= side) return photo;
+    const auto scaled = [&](int length) {
+        return std::max(1, (2 * length * side + longest) / (2 * longest));
+    };
+    Picture copy{scaled(photo.width), scaled(photo.height), {}};
+    const std::vector<Cover> columns = covers(photo.width, copy.width),
+                             rows = covers(photo.height, copy.height);
+    copy.rgb.reserve(3 * columns.size() * rows.size());
+    std::vector<double> line(3 * columns.size());
+    for (const Cover& row : rows) {
+        std::fill(line.begin(), line.end(), 0.0);
+        for (std::size_t k = 0; k < row.shares.size(); ++k) {
+            const std::uint8_t* from = &photo.rgb[3 * (static_cast<std::size_t>(row.first) + k) *
+                                                  static_cast<std::size_t>(photo.width)];
+            for (std::size_t x = 0; x < columns.size(); ++x)
+                for (std::size_t i = 0; i < columns[x].shares.size(); ++i) {
+                    const double share = row.shares[k] * columns[x].shares[i];
+                    const std::uint8_t* pixel =
+                        from + 3 * (static_cast<std::size_t>(columns[x].first) + i);
+                    for (std::size_t c = 0; c < 3; ++c) line[3 * x + c] += share * pixel[c];
+                }
+        }
+        for (const double value : line)
+            copy.rgb.push_back(static_cast<std::uint8_t>(std::clamp(value + 0.5, 0.0, 255.0)));
+    }
+    return copy;
+}
+
+std::size_t Mask::area() const {
+    return std::accumulate(inside.begin(), inside.end(), std::size_t{0});
+}
+
+Mask connected_with(const Mask& mask, const Mask& seeds) {
+    Mask reached(mask.width, mask.height);
+    std::vector<std::array<int, 2>> open;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x)
+            if (mask.at(x, y) && seeds.at(x, y)) {
+                reached.inside[reached.index(x, y)] = 1;
+                open.push_back({x, y});
+            }
+    flood(mask, true, std::move(open), reached);
+    return reached;
+}
+
+Mask without_holes(const Mask& mask) {
+    Mask outside(mask.width, mask.height);
+    std::vector<std::array<int, 2>> open;
+    const auto start = [&](int x, int y) {
+        if (mask.at(x, y) || outside.at(x, y)) return;
+        outside.inside[outside.index(x, y)] = 1;
+        open.push_back({x, y});
+    };
+    for (int x = 0; x < mask.width; ++x) {
+        start(x, 0);
+        start(x, mask.height - 1);
+    }
+    for (int y = 0; y < mask.height; ++y) {
+        start(0, y);
+        start(mask.width - 1, y);
+    }
+    flood(mask, false, std::move(open), outside);
+    for (std::uint8_t& value : outside.inside) value = value == 0 ? 1 : 0;
+    return outside;
+}
+
+Mask opened(const Mask& mask) {
+    Mask found(mask.width, mask.height);
+    const auto all = [&](int x, int y) {
+        for (int v = y - 1; v <= y + 1; ++v)
+            for (int u = x - 1; u <= x + 1; ++u)
+                if (!mask.at(u, v)) return false;
+        return true;
+    };
+    for (int y = 1; y + 1 < mask.height; ++y)
+        for (int x = 1; x + 1 < mask.width; ++x) {
+            if (!all(x, y)) continue;
+            for (int v = y - 1; v <= y + 1; ++v)
+                for (int u = x - 1; u <= x + 1; ++u) found.inside[found.index(u, v)] = 1;
+        }
+    return found;
+}
+
+Mask resized(const Mask& mask, int width, int height) {
+    Mask found(width, height);
+    const auto source = [](int i, int from, int to) {
+        return static_cast<int>((2LL * i + 1) * from / (2LL * to));
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            found.inside[found.index(x, y)] =
+                mask.at(source(x, mask.width, width), source(y, mask.height, height)) ? 1 : 0;
+    return found;
+}
+
+}  // namespace sporeprint::trace

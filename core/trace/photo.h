@@ -1,0 +1,59 @@
+// A photograph as it is traced: pixels of a size at which every step is fast.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/surface/codecs.h"
+
+namespace sporeprint::trace {
+
+/// Long sides of the working copies, pixels: the cut is found on the small one and refined on the large
+/// one.
+inline constexpr int small_side = 320, large_side = 1024;
+
+/// Returns a copy by the mean of the area that each of its pixels covers, of the shape of the original; the
+/// original if its long side is no longer.
+///
+/// side  of the long side of the copy, pixels, at least 1
+[[nodiscard]] Picture reduced(const Picture& photo, int side);
+
+/// The pixels of a photograph that belong to the mushroom: rows from top to bottom.
+struct Mask {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> inside;  ///< 1 or 0 for each pixel
+
+    Mask() = default;
+    Mask(int columns, int rows, bool value = false)
+        : width(columns),
+          height(rows),
+          inside(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
+                 value ? 1 : 0) {}
+
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+    /// Returns false beyond the borders.
+    [[nodiscard]] bool at(int x, int y) const {
+        return x >= 0 && y >= 0 && x < width && y < height && inside[index(x, y)] != 0;
+    }
+    [[nodiscard]] std::size_t area() const;
+    bool operator==(const Mask&) const = default;
+};
+
+/// Returns the part of a mask that hangs together, by edges of pixels, with any pixel of another one.
+[[nodiscard]] Mask connected_with(const Mask& mask, const Mask& seeds);
+
+/// Returns a mask whose holes are filled: what does not hang together with the border is inside.
+[[nodiscard]] Mask without_holes(const Mask& mask);
+
+/// Returns the union of all squares of three by three pixels inside a mask: spurs of one or two pixels
+/// are gone.
+[[nodiscard]] Mask opened(const Mask& mask);
+
+/// Returns a mask of another size, by the pixels in which the middles of its own lie.
+[[nodiscard]] Mask resized(const Mask& mask, int width, int height);
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,105 @@
+#include "core/trace/cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/support/effort.h"
+#include "tests/support/photographs.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint::trace_cut_test {
+namespace {
+
+/// The agreement of cuts with the truth.
+struct Agreement {
+    double mean = 0.0, least = 1.0;
+};
+
+Agreement agreement(Scenery scenery, std::size_t scenes) {
+    const std::vector<Sitter> sitters = {
+        {"amanita_muscaria", 0.7, 1, View::front, 1024},
+        {"boletus_edulis", 0.6, 2, View::front, 1024},
+        {"mycena_galericulata", 0.7, 3, View::front, 1024},
+        {"russula_emetica", 0.8, 4, View::front, 1024},
+        {"hygrocybe_coccinea", 0.6, 5, View::front, 1024},
+        {"lactarius_deliciosus", 0.8, 6, View::front, 1024},
+        {"macrolepiota_procera", 0.6, 7, View::front, 1024},
+        {"psilocybe_semilanceata", 0.7, 8, View::front, 1024},
+    };
+    Agreement found;
+    for (std::size_t i = 0; i < scenes; ++i) {
+        Sitter sitter = sitters[i % sitters.size()];
+        sitter.seed += static_cast<std::uint32_t>(10 * (i / sitters.size()));
+        const Photograph photo = photograph(sitter, scenery);
+        const double overlap =
+            intersection_over_union(trace::cut_out(photo.picture, photo.gesture), photo.truth);
+        EXPECT_GT(overlap, scenery == Scenery::crowded ? 0.8 : 0.85) << sitter.species;
+        found.mean += overlap / static_cast<double>(scenes);
+        found.least = std::min(found.least, overlap);
+    }
+    return found;
+}
+
+TEST(Cut, OfAPlainBackgroundIsTheMushroom) {
+    EXPECT_GE(agreement(Scenery::plain, effort(16, 2)).mean, 0.97);
+}
+
+TEST(Cut, OfASharpForestFloorIsTheMushroom) {
+    EXPECT_GE(agreement(Scenery::forest, effort(16, 2)).mean, 0.97);
+}
+
+TEST(Cut, BetweenLeavesAndNeighboursIsTheMushroomOfTheGesture) {
+    EXPECT_GE(agreement(Scenery::crowded, effort(16, 2)).mean, 0.94);
+}
+
+/// A red disc on green paper.
+Picture disc(int side) {
+    Picture photo{side, side, {}};
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int u = 2 * x + 1 - side, v = 2 * y + 1 - side;
+            const bool inside = 4 * (u * u + v * v) < side * side;
+            for (const int value : {inside ? 200 : 40, inside ? 30 : 120, 40})
+                photo.rgb.push_back(static_cast<std::uint8_t>(value));
+        }
+    return photo;
+}
+
+TEST(Cut, OfADiscHasItsAreaAtEverySize) {
+    for (const int side : {60, 200, 700, 1500}) {
+        const trace::Gesture gesture{
+            {{0.5 * side, 0.7 * side}, {0.5 * side, 0.3 * side}}, {}, {}, {}, {}};
+        const trace::Mask mask = trace::cut_out(disc(side), gesture);
+        const double area =
+            static_cast<double>(mask.area()) / static_cast<double>(mask.inside.size());
+        EXPECT_NEAR(area, 3.14159 / 16.0, 0.006) << side;
+    }
+}
+
+TEST(Cut, LeavesOutWhatIsDroppedAndWhatIsBeyondTheFrame) {
+    const double side = 300.0;
+    trace::Gesture gesture{{{150.0, 200.0}, {150.0, 100.0}}, {}, {}, {}, {}};
+    gesture.drop = {{{180.0, 190.0}, {180.0, 110.0}}};
+    const trace::Mask dropped = trace::cut_out(disc(300), gesture);
+    EXPECT_FALSE(dropped.at(180, 150));
+    EXPECT_TRUE(dropped.at(150, 150));
+    gesture.drop.clear();
+    gesture.frame = trace::PhotoFrame{{0.0, 0.0}, {side, 160.0}};
+    EXPECT_FALSE(trace::cut_out(disc(300), gesture).at(120, 170));
+}
+
+TEST(Cut, RefusesAnAxisThatIsNotOnThePhotograph) {
+    const auto refused = [](trace::Stroke axis) {
+        return refusal([&] {
+            static_cast<void>(trace::cut_out(disc(100), {std::move(axis), {}, {}, {}, {}}));
+        });
+    };
+    EXPECT_TRUE(names(refused({{50.0, 60.0}}), "/gesture/axis", "two points"));
+    EXPECT_TRUE(names(refused({{50.0, 60.0}, {50.0, -1.0}}), "/gesture/axis/1", "100 x 100"));
+}
+
+}  // namespace
+}  // namespace sporeprint::trace_cut_test

@@ -1,0 +1,41 @@
+#include "core/trace/gesture.h"
+
+#include <gtest/gtest.h>
+
+namespace sporeprint::trace_gesture_test {
+namespace {
+
+TEST(Drawn, IsABandOfTheStrokesWidth) {
+    const trace::Mask mask = trace::drawn({{{10.0, 5.5}, {30.0, 5.5}}}, 40, 11, 3.0);
+    for (int y = 0; y < 11; ++y) EXPECT_EQ(mask.at(20, y), y >= 4 && y <= 6) << y;
+    EXPECT_FALSE(mask.at(7, 5));
+    EXPECT_FALSE(mask.at(32, 5));
+}
+
+TEST(Drawn, IsADiscForAPoint) {
+    const trace::Mask mask = trace::drawn({{{50.0, 50.0}}}, 100, 100, 60.0);
+    EXPECT_NEAR(static_cast<double>(mask.area()), 3.14159 * 30.0 * 30.0, 30.0);
+}
+
+TEST(Drawn, LeavesOutWhatIsBeyondTheBorder) {
+    EXPECT_EQ(trace::drawn({{{-50.0, -50.0}, {-10.0, 300.0}}}, 20, 20, 3.0).area(), 0U);
+    EXPECT_EQ(trace::drawn({{{-50.0, 10.0}, {500.0, 10.0}}}, 20, 20, 2.0).area(), 40U);
+    EXPECT_EQ(trace::drawn({{}}, 20, 20, 2.0).area(), 0U);
+}
+
+TEST(Gesture, IsScaledWithThePhotograph) {
+    const trace::Gesture gesture{{{1.0, 2.0}, {3.0, 4.0}},
+                                 {{5.0, 6.0}},
+                                 {{{7.0, 8.0}}},
+                                 {{{9.0, 10.0}}},
+                                 trace::PhotoFrame{{11.0, 12.0}, {13.0, 14.0}}};
+    const trace::Gesture half = gesture.scaled(0.5);
+    EXPECT_EQ(half.axis[1], glm::dvec2(1.5, 2.0));
+    EXPECT_EQ(half.cap[0], glm::dvec2(2.5, 3.0));
+    EXPECT_EQ(half.keep[0][0], glm::dvec2(3.5, 4.0));
+    EXPECT_EQ(half.drop[0][0], glm::dvec2(4.5, 5.0));
+    EXPECT_EQ(half.frame->to, glm::dvec2(6.5, 7.0));
+}
+
+}  // namespace
+}  // namespace sporeprint::trace_gesture_test
