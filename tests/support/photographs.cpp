@@ -17,15 +17,12 @@ namespace sporeprint {
 namespace {
 
 /// Returns a mushroom without ground, before nothing.
-RgbaImage portrait(const Sitter& sitter) {
-    MushroomSpec spec = painted(order_of(sitter.species), 512);
-    spec.params.age = sitter.age;
-    spec.params.seed = sitter.seed;
+RgbaImage portrait_of(MushroomSpec spec, View view, int side) {
     spec.params.lod = 0;
     spec.params.base = Base::clean;
     PictureParams params;
-    params.view = sitter.view;
-    params.width = params.height = sitter.side;
+    params.view = view;
+    params.width = params.height = side;
     RgbaImage image;
     Extras extras;
     extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
@@ -36,6 +33,13 @@ RgbaImage portrait(const Sitter& sitter) {
     };
     static_cast<void>(grow_mushroom(spec, *built_in_atlas(), extras));
     return image;
+}
+
+RgbaImage portrait(const Sitter& sitter) {
+    MushroomSpec spec = painted(order_of(sitter.species), 512);
+    spec.params.age = sitter.age;
+    spec.params.seed = sitter.seed;
+    return portrait_of(spec, sitter.view, sitter.side);
 }
 
 /// Octaves of noise, 0..1, as a grid of pixels.
@@ -253,6 +257,18 @@ Photograph photograph(const Sitter& sitter, Scenery scenery) {
     found.picture = canvas.developed(sitter.seed);
     found.gesture = drawn_by_hand(found.truth);
     return found;
+}
+
+trace::Mask silhouette_of(const Model& model, View view, int side) {
+    MushroomSpec spec;
+    spec.model = model;
+    spec.params.variation = 0.0;
+    spec.params.textures = Textures::none;
+    const RgbaImage image = portrait_of(spec, view, side);
+    trace::Mask mask(side, side);
+    for (std::size_t i = 0; i < mask.inside.size(); ++i)
+        mask.inside[i] = image.rgba[4 * i + 3] >= 128 ? 1 : 0;
+    return trace::connected_with(mask, mask);
 }
 
 double intersection_over_union(const trace::Mask& a, const trace::Mask& b) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/model/model.h"
 #include "core/render/picture_params.h"
 #include "core/trace/gesture.h"
 #include "core/trace/photo.h"
@@ -34,6 +35,9 @@ struct Sitter {
 /// Returns a photograph with noise of a sensor. A mask that is cut off by a leaf before the foot has the
 /// leaf's pixels outside.
 [[nodiscard]] Photograph photograph(const Sitter& sitter, Scenery scenery);
+
+/// Returns the pixels of a model that grows without variation and ground.
+[[nodiscard]] trace::Mask silhouette_of(const Model& model, View view, int side);
 
 /// Returns the area of the intersection of two masks of one size over that of their union.
 [[nodiscard]] double intersection_over_union(const trace::Mask& a, const trace::Mask& b);

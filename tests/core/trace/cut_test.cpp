@@ -1,6 +1,7 @@
 #include "core/trace/cut.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <string>
@@ -89,6 +90,33 @@ TEST(Cut, LeavesOutWhatIsDroppedAndWhatIsBeyondTheFrame) {
     gesture.drop.clear();
     gesture.frame = trace::PhotoFrame{{0.0, 0.0}, {side, 160.0}};
     EXPECT_FALSE(trace::cut_out(disc(300), gesture).at(120, 170));
+}
+
+RC_GTEST_PROP(Cut, OfNoiseHangsTogetherWithTheAxisOrIsRefused, ()) {
+    Picture photo{*rc::gen::inRange(2, 60), *rc::gen::inRange(2, 60), {}};
+    photo.rgb.resize(3 * static_cast<std::size_t>(photo.width * photo.height));
+    const std::uint8_t grain = *rc::gen::inRange<std::uint8_t>(1, 255);
+    for (std::uint8_t& value : photo.rgb)
+        value = static_cast<std::uint8_t>(*rc::gen::inRange(0, 256) / grain * grain);
+    const auto stroke = [&] {
+        trace::Stroke points;
+        for (int i = *rc::gen::inRange(2, 5); i > 0; --i)
+            points.emplace_back(*rc::gen::inRange(0, photo.width + 1),
+                                *rc::gen::inRange(0, photo.height + 1));
+        return points;
+    };
+    trace::Gesture gesture{stroke(), stroke(), {stroke()}, {stroke()}, {}};
+    if (*rc::gen::arbitrary<bool>()) gesture.frame = trace::PhotoFrame{stroke()[0], stroke()[1]};
+    trace::Mask mask;
+    try {
+        mask = trace::cut_out(photo, gesture);
+    } catch (const InvalidInput& refused) {
+        RC_ASSERT(refused.problems().front().path.starts_with("/gesture/axis"));
+        return;
+    }
+    RC_ASSERT(mask.width == photo.width && mask.height == photo.height);
+    RC_ASSERT(trace::without_holes(mask) == mask || mask.area() == 0);
+    RC_ASSERT(trace::cut_out(photo, gesture) == mask);
 }
 
 TEST(Cut, RefusesAnAxisThatIsNotOnThePhotograph) {

@@ -1,0 +1,33 @@
+// The border of a mask as a smooth closed polygon.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/trace/photo.h"
+
+namespace sporeprint::trace {
+
+/// Points in pixels from the upper left corner, x to the right and y down; the last is joined with the first.
+/// The mask is on the right of each edge as it is seen on the photograph.
+using Contour = std::vector<glm::dvec2>;
+
+/// Returns the border of a mask: evenly spaced points on the midpoints of the edges of its pixels, smoothed
+/// by a Gaussian along the border.
+///
+/// mask   one part without holes, at least one pixel
+/// sigma  of the Gaussian, pixels; 0 for none
+/// cost   O(border * sigma)
+[[nodiscard]] Contour contour_of(const Mask& mask, double sigma);
+
+/// Returns the area within a contour, square pixels.
+[[nodiscard]] double area_of(const Contour& contour);
+
+/// Returns the distance at which a ray first meets a contour; none if it misses it.
+///
+/// direction  unit vector
+[[nodiscard]] std::optional<double> first_hit(const Contour& contour, const glm::dvec2& from,
+                                              const glm::dvec2& direction);
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,177 @@
+#include "core/trace/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/math/elementary.h"
+#include "core/silhouette/outline.h"
+
+namespace sporeprint::trace {
+
+namespace {
+
+/// Greatest error of a part, of the height, and most points of it.
+constexpr double most_error = 0.004;
+constexpr std::size_t most_points = 10;
+
+/// How much a turn of all of a part counts beside its length where points are placed.
+constexpr double turning_weight = 0.7;
+
+/// Depths of the root's tip and of its side below the ground, of the height, and the side's share of the
+/// radius there.
+constexpr double root_tip = 0.035, root_side = 0.019, root_radius = 0.82;
+
+using Part = std::vector<glm::dvec2>;
+
+/// Returns how far each point of a part is along it, by length and turning, 0..1.
+std::vector<double> measure_of(const Part& part) {
+    std::vector<double> lengths{0.0}, turns{0.0};
+    for (std::size_t i = 1; i < part.size(); ++i) {
+        const glm::dvec2 step = part[i] - part[i - 1];
+        lengths.push_back(lengths.back() + glm::length(step));
+        double turn = 0.0;
+        if (i + 1 < part.size()) {
+            const glm::dvec2 next = part[i + 1] - part[i];
+            turn = std::abs(arc_tangent(step.x * next.y - step.y * next.x, glm::dot(step, next)));
+        }
+        turns.push_back(turns.back() + turn);
+    }
+    std::vector<double> measure(part.size());
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        const double length = lengths.back() > 0.0 ? lengths[i] / lengths.back() : 0.0,
+                     turn = turns.back() > 0.0 ? turns[i] / turns.back() : 0.0;
+        measure[i] = (length + turning_weight * turn) / (1.0 + turning_weight);
+    }
+    return measure;
+}
+
+/// Returns some points of a part, evenly spaced by its measure, with both ends.
+Part chosen(const Part& part, std::size_t count) {
+    const std::vector<double> measure = measure_of(part);
+    Part points{part.front()};
+    std::size_t i = 0;
+    for (std::size_t k = 1; k + 1 < count; ++k) {
+        const double target =
+            measure.back() * static_cast<double>(k) / (static_cast<double>(count) - 1.0);
+        while (i + 2 < part.size() && measure[i + 1] < target) ++i;
+        const double step = measure[i + 1] - measure[i];
+        points.push_back(part[i] + (part[i + 1] - part[i]) *
+                                       (step > 0.0 ? (target - measure[i]) / step : 0.0));
+    }
+    points.push_back(part.back());
+    return points;
+}
+
+double distance_to(const Part& line, const glm::dvec2& point) {
+    double least = 1e300;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const glm::dvec2 along = line[i + 1] - line[i], off = point - line[i];
+        const double square = glm::dot(along, along);
+        const double t = square > 0.0 ? std::clamp(glm::dot(off, along) / square, 0.0, 1.0) : 0.0;
+        least = std::min(least, glm::length(off - t * along));
+    }
+    return least;
+}
+
+/// The three parts of an outline as control points.
+struct Controls {
+    Part stem, face, cap;
+    bool has_corner = true;
+
+    [[nodiscard]] Silhouette silhouette(double scale) const {
+        const auto list = [&](const Part& part) {
+            std::vector<OutlinePoint> points;
+            for (const glm::dvec2& at : part) points.push_back({at.x * scale, at.y * scale});
+            return points;
+        };
+        Silhouette made{list(stem), list(face), list(cap), Join::corner, Join::corner};
+        if (!has_corner) made.junction = Join::smooth;
+        made.stem.front().r = made.cap.back().r = 0.0;
+        return made;
+    }
+};
+
+/// Returns the greatest distance of the points of a part from a curve.
+double error_of(const Part& part, const SubCurve& curve, double scale) {
+    Part line;
+    constexpr int steps = 160;
+    for (int k = 0; k <= steps; ++k) {
+        const OutlineSample at = curve.at(static_cast<double>(k) / steps);
+        line.emplace_back(at.r / scale, at.y / scale);
+    }
+    double greatest = 0.0;
+    for (const glm::dvec2& point : part) greatest = std::max(greatest, distance_to(line, point));
+    return greatest;
+}
+
+/// Returns the stem with a root below the ground.
+Part with_root(const Part& stem, double height) {
+    Part points{{0.0, -root_tip * height}, {root_radius * stem.front().x, -root_side * height}};
+    points.insert(points.end(), stem.begin(), stem.end());
+    return points;
+}
+
+/// Returns the axis from the tip of the root to the top of the stem, with the direction of the cap there.
+///
+/// radius  of the stem at its top: the axis bends towards the cap no more sharply than it allows
+///
+/// root  depth of that tip below the foot, pixels
+std::vector<AxisPoint> axis_points(const TracedAxis& axis, const Marks& marks, double root,
+                                   double radius) {
+    constexpr int count = 12;
+    constexpr double least_reach = 0.1, most_reach = 0.6, spare = 1.5;
+    const double length = marks.stem_top + root;
+    const glm::dvec2 from = axis.at(-root);
+    // The last part moves aside by turn (u^3 - u^2): its end stays, and turns.
+    const double tangent = sine(radians(marks.cap_turn_deg)) / cosine(radians(marks.cap_turn_deg));
+    const double wanted = std::max(least_reach * length, 4.0 * spare * radius * std::abs(tangent));
+    const double reach = std::min(wanted, most_reach * length), turn = tangent * reach / wanted;
+    std::vector<AxisPoint> points;
+    for (int k = 0; k <= count; ++k) {
+        const double arc = -root + length * k / count;
+        const double u = std::max(1.0 - (marks.stem_top - arc) / reach, 0.0);
+        const glm::dvec2 at = axis.beside(turn * reach * u * u * (u - 1.0), arc);
+        points.push_back({(at.x - from.x) / length, (from.y - at.y) / length, 0.0});
+    }
+    return points;
+}
+
+}  // namespace
+
+FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis, const Marks& marks,
+                         double height, double height_m) {
+    const double scale = height_m / height;
+    Controls controls;
+    controls.has_corner = profile.has_corner;
+    std::size_t stem = 5, face = 4, cap = 5;
+    FittedShape found;
+    while (true) {
+        controls.stem = chosen(profile.stem, stem);
+        if (!profile.has_foot) controls.stem = with_root(controls.stem, height);
+        controls.face = chosen(profile.face, face);
+        controls.cap = chosen(profile.cap, cap);
+        found.silhouette = controls.silhouette(scale);
+        const Outline outline = Outline::unproven(found.silhouette, "/silhouette");
+        const double of_stem = error_of(profile.stem, outline.stem, scale),
+                     of_face = error_of(profile.face, outline.hymenium, scale),
+                     of_cap = error_of(profile.cap, outline.cap, scale);
+        found.error = std::max({of_stem, of_face, of_cap}) / height;
+        bool grown = false;
+        const auto grow = [&](std::size_t& count, double error) {
+            if (error <= most_error * height || count >= most_points) return;
+            ++count;
+            grown = true;
+        };
+        grow(stem, of_stem);
+        grow(face, of_face);
+        grow(cap, of_cap);
+        if (!grown) break;
+    }
+    static_cast<void>(Outline(found.silhouette, "/silhouette"));
+    found.axis =
+        axis_points(axis, marks, profile.has_foot ? 0.0 : root_tip * height, profile.stem.back().x);
+    return found;
+}
+
+}  // namespace sporeprint::trace

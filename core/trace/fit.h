@@ -1,0 +1,25 @@
+// A traced profile as the outline of a model: few control points of its own spline.
+#pragma once
+
+#include "core/model/swept.h"
+#include "core/trace/profile.h"
+
+namespace sporeprint::trace {
+
+/// An outline and an axis that a model can have.
+struct FittedShape {
+    Silhouette silhouette;
+    std::vector<AxisPoint> axis;  ///< from the root to the top of the stem
+    double error = 0.0;  ///< greatest distance of the outline from the profile, of the height
+};
+
+/// Returns the spline through as few points of each part as keep it within 0.4 % of the height, at
+/// most ten, and a root below the ground.
+///
+/// height    of the mushroom, pixels
+/// height_m  the same in metres
+/// throws    Impossible if the outline crosses itself (path below "/silhouette")
+[[nodiscard]] FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis,
+                                       const Marks& marks, double height, double height_m);
+
+}  // namespace sporeprint::trace

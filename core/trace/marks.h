@@ -1,0 +1,41 @@
+// Where the parts of a capped mushroom meet on its contour: margin, junction and apex.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "core/trace/axis.h"
+#include "core/trace/contour.h"
+
+namespace sporeprint::trace {
+
+/// One side of a contour, from the foot up to the apex.
+struct ContourSide {
+    std::vector<glm::dvec2> points;  ///< pixels
+    /// Distance outwards from the axis and arc length along it from the foot, pixels.
+    std::vector<glm::dvec2> local;
+    std::size_t junction = 0;  ///< where the stem meets the lower face
+    std::size_t margin = 0;    ///< the edge of the cap, junction <= margin
+};
+
+/// The marks of both sides, and how the cap stands on the stem.
+struct Marks {
+    std::array<ContourSide, 2> sides;  ///< to the left and to the right of the axis
+    double stem_top = 0.0;             ///< arc length of the axis where the stem ends, pixels
+    double cap_turn_deg = 0.0;  ///< of the cap against the stem's top, to the right where positive
+    /// Whether stem and lower face meet at an angle on both sides; where they do not, the junction is
+    /// where the outline turns outwards most.
+    bool has_corner = true;
+};
+
+/// Finds the parts of a mushroom with a stem and a cap.
+///
+/// height   of the mushroom, pixels
+/// throws   InvalidInput (path "/form") if no cap stands out from the stem
+/// source   the margin is the sharpest convex place far from the axis; the junction is the first place
+///          below it that is nearly as near to the axis as the stem, moved to the most concave
+///          one nearby
+[[nodiscard]] Marks marks_of(const Contour& contour, const TracedAxis& axis, double height);
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,203 @@
+#include "core/trace/trace.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/grow/mushroom.h"
+#include "core/mesh/measure.h"
+#include "tests/support/atlas.h"
+#include "tests/support/drawn_mushroom.h"
+#include "tests/support/effort.h"
+#include "tests/support/meshes.h"
+#include "tests/support/photographs.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint::trace_trace_test {
+namespace {
+
+TEST(Traced, HasTheLeanAndTheBendOfThePhotograph) {
+    for (const double bend : {0.0, 15.0, 30.0})
+        for (const double lean : {-12.0, 0.0, 6.0}) {
+            DrawnMushroom drawn;
+            drawn.bend_deg = bend;
+            drawn.lean_deg = lean - 0.5 * bend;
+            const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), 0.1);
+            EXPECT_EQ(found.method, trace::TraceMethod::fitted);
+            EXPECT_NEAR(found.lean_deg, lean, 2.0) << bend;
+            EXPECT_NEAR(found.bend_deg, bend, 6.0) << lean;
+        }
+}
+
+TEST(Traced, MarksThePhotographInItsOwnPixels) {
+    const DrawnMushroom drawn;
+    const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), 0.1);
+    EXPECT_LT(found.margins[0].x, found.junctions[0].x);
+    EXPECT_LT(found.junctions[0].x, found.junctions[1].x);
+    EXPECT_LT(found.junctions[1].x, found.margins[1].x);
+    EXPECT_NEAR(found.margins[1].x - found.margins[0].x, 0.7 * drawn.pixels, 0.02 * drawn.pixels);
+    // Both sides go from the foot to the apex.
+    for (const std::vector<glm::dvec2>* side : {&found.left, &found.right}) {
+        EXPECT_NEAR(side->front().y, drawn.foot().y, 6.0);
+        EXPECT_LT(glm::length(side->back() - drawn.axis(1.0)), 0.02 * drawn.pixels);
+    }
+}
+
+TEST(Traced, BendsAStemLessThatWouldFold) {
+    DrawnMushroom drawn;
+    drawn.pixels = 500.0;
+    drawn.stem_radius = 0.24;
+    drawn.bend_deg = 70.0;
+    drawn.lean_deg = -35.0;
+    drawn.cap_radius = 0.42;
+    EXPECT_EQ(trace::traced(drawn.mask(), drawn.gesture(), 0.1).method,
+              trace::TraceMethod::straightened);
+}
+
+TEST(Traced, RefusesWhatIsTooSmallOrCutOff) {
+    DrawnMushroom drawn;
+    drawn.pixels = 80.0;
+    const auto problems_of = [&] {
+        return refusal(
+            [&] { static_cast<void>(trace::traced(drawn.mask(), drawn.gesture(), 0.1)); });
+    };
+    EXPECT_TRUE(names(problems_of(), "/photo", "at least 120"));
+    drawn.pixels = 700.0;
+    drawn.lean_deg = 60.0;
+    EXPECT_TRUE(names(problems_of(), "/photo", "cut off by the right border"));
+}
+
+RC_GTEST_PROP(Traced, AnyMaskAndLineIsTracedOrRefusedByName, ()) {
+    // Discs and bars at random places, and a line anywhere.
+    trace::Mask mask(200, 200);
+    const int parts = *rc::gen::inRange(1, 7);
+    for (int part = 0; part < parts; ++part) {
+        const glm::dvec2 from(*rc::gen::inRange(0, 200), *rc::gen::inRange(0, 200)),
+            to(*rc::gen::inRange(0, 200), *rc::gen::inRange(0, 200));
+        const trace::Mask one = trace::drawn({{from, to}}, 200, 200, *rc::gen::inRange(3, 60));
+        for (std::size_t i = 0; i < mask.inside.size(); ++i) mask.inside[i] |= one.inside[i];
+    }
+    trace::Gesture gesture;
+    const int points = *rc::gen::inRange(2, 6);
+    for (int i = 0; i < points; ++i)
+        gesture.axis.emplace_back(*rc::gen::inRange(0, 201), *rc::gen::inRange(0, 201));
+    const trace::Mask part = trace::without_holes(
+        trace::connected_with(mask, trace::drawn({gesture.axis}, 200, 200, 3.0)));
+    RC_PRE(part.area() > 0);
+    try {
+        const trace::Traced found = trace::traced(part, gesture, 0.1);
+        for (const OutlinePoint& point : found.shape.silhouette.cap)
+            RC_ASSERT(std::isfinite(point.r) && std::isfinite(point.y) && point.r >= 0.0);
+        for (const AxisPoint& point : found.shape.axis)
+            RC_ASSERT(std::isfinite(point.x) && std::isfinite(point.y));
+        RC_ASSERT(std::isfinite(found.lean_deg) && std::isfinite(found.asymmetry));
+    } catch (const InvalidInput& refused) {
+        RC_ASSERT(!refused.problems().empty());
+        RC_ASSERT(refused.problems().front().path.starts_with("/"));
+    }
+}
+
+/// Returns a model of a species with a traced shape.
+Model model_of(const std::string& species, const trace::Traced& found) {
+    Model model = atlas().find(species)->species.stages[3].model;
+    model.shape = found.shape;
+    model.deformation = {};
+    model.ornaments = {};
+    model.weathering = {};
+    return model;
+}
+
+/// Returns the mean distance of the points of one contour from another.
+double distance(const trace::Contour& from, const trace::Contour& to) {
+    double sum = 0.0;
+    for (const glm::dvec2& a : from) {
+        double least = 1e300;
+        for (const glm::dvec2& b : to) least = std::min(least, glm::dot(a - b, a - b));
+        sum += std::sqrt(least);
+    }
+    return sum / static_cast<double>(from.size());
+}
+
+/// Returns the mean distance between the border of a mask and that of the model traced from it, of the
+/// height. The pictures of both are fitted to them, so that one is first scaled and moved to the other.
+double round_trip_error(const std::string& species, const Photograph& photo) {
+    const trace::Traced found = trace::traced(photo.truth, photo.gesture, 0.1);
+    const trace::Contour truth = trace::contour_of(photo.truth, 0.0);
+    trace::Contour own =
+        trace::contour_of(silhouette_of(model_of(species, found), View::front, 1024), 0.0);
+    const auto range = [](const trace::Contour& contour) {
+        glm::dvec2 found_range(1e9, -1e9);
+        for (const glm::dvec2& at : contour)
+            found_range = {std::min(found_range.x, at.y), std::max(found_range.y, at.y)};
+        return found_range;
+    };
+    const glm::dvec2 of_truth = range(truth), of_own = range(own);
+    const double height = of_truth.y - of_truth.x, scale = height / (of_own.y - of_own.x);
+    for (glm::dvec2& at : own) at *= scale;
+    for (int round = 0; round < 20; ++round) {
+        glm::dvec2 move(0.0);
+        for (const glm::dvec2& a : own) {
+            glm::dvec2 nearest = truth.front() - a;
+            for (const glm::dvec2& b : truth)
+                if (glm::dot(b - a, b - a) < glm::dot(nearest, nearest)) nearest = b - a;
+            move += nearest;
+        }
+        for (glm::dvec2& at : own) at += 1.5 * move / static_cast<double>(own.size());
+    }
+    return 0.5 * (distance(own, truth) + distance(truth, own)) / height;
+}
+
+TEST(Traced, GrowsIntoTheSilhouetteOfThePhotograph) {
+    const std::vector<std::string> species = {
+        "mycena_galericulata",  "amanita_muscaria",        "hygrocybe_coccinea",
+        "coprinus_comatus",     "boletus_edulis",          "marasmius_oreades",
+        "armillaria_mellea",    "hypholoma_fasciculare",   "amanita_phalloides",
+        "laccaria_amethystina", "coprinopsis_atramentaria"};
+    const std::size_t count = effort(22, 2);
+    double mean = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string& id = species[i % species.size()];
+        const double error = round_trip_error(
+            id, photograph({id, 0.7, static_cast<std::uint32_t>(7 + i), View::front, 1024},
+                           Scenery::plain));
+        EXPECT_LT(error, 0.016) << id << " of seed " << 7 + i;
+        mean += error / static_cast<double>(count);
+    }
+    EXPECT_LT(mean, 0.008);
+}
+
+TEST(Traced, IsAModelThatGrowsAtEveryLevel) {
+    const std::vector<std::string> species = {
+        "amanita_muscaria",      "boletus_edulis",   "mycena_galericulata", "hygrocybe_coccinea",
+        "lactarius_deliciosus",  "coprinus_comatus", "marasmius_oreades",   "lepista_nuda",
+        "hypholoma_fasciculare", "russula_emetica"};
+    const std::size_t count = effort(20, 2);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string& id = species[i % species.size()];
+        const Photograph photo = photograph(
+            {id, 0.7, static_cast<std::uint32_t>(i + 3), View::front, 1024}, Scenery::plain);
+        const trace::Traced found = trace::traced(photo.picture, photo.gesture, 0.1);
+        EXPECT_LE(found.error, 0.016) << id;
+        for (int lod = 0; lod < 4; ++lod) {
+            MushroomSpec spec;
+            spec.model = model_of(id, found);
+            spec.params.variation = 0.0;
+            spec.params.lod = lod;
+            spec.params.textures = Textures::none;
+            spec.params.base = Base::clean;
+            const Mesh mesh = mushroom_mesh(spec, resolve(spec, atlas()));
+            EXPECT_TRUE(defects(mesh).empty()) << id << " at level " << lod;
+            if (lod > 1) continue;
+            const Bounds box = bounds(mesh);
+            EXPECT_NEAR(box.max.y - box.min.y, 0.1F, 0.012F) << id;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace sporeprint::trace_trace_test
