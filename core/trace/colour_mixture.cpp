@@ -108,7 +108,7 @@ ColourMixture::Part ColourMixture::fitted(std::span<const WeightedColour> colour
 }
 
 double ColourMixture::cost(const glm::dvec3& colour) const {
-    // The sum of exponentials, relative to the greatest one.
+    // The sum of exponentials, relative to the greatest one; those below a millionth of it do not count.
     std::array<double, mixture_parts> costs{};
     double least = 1e300;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
@@ -116,7 +116,7 @@ double ColourMixture::cost(const glm::dvec3& colour) const {
         costs[k] = parts_[k].constant + 0.5 * glm::dot(away, parts_[k].precision * away);
         least = std::min(least, costs[k]);
     }
-    constexpr double vanishing = 37.0;
+    constexpr double vanishing = 14.0;
     double sum = 0.0;
     for (std::size_t k = 0; k < parts_.size(); ++k)
         if (costs[k] - least < vanishing) sum += exponential(least - costs[k]);

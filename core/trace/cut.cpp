@@ -310,7 +310,7 @@ Mask cut_out(const Picture& photo, const Gesture& gesture) {
     const auto seeds_on = [&](const Picture& picture) {
         return seeds_of(gesture.scaled(static_cast<double>(picture.width) / photo.width), picture);
     };
-    const Picture large = reduced(photo, large_side), small = reduced(photo, small_side);
+    const Picture large = reduced(photo, large_side), small = reduced(large, small_side);
     const Seeds of_small = seeds_on(small), of_large = seeds_on(large);
     const Mask first = cleaned(SmallCut(small, of_small).solved(), of_small.mushroom);
     if (first.area() == 0)
