@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/elementary.h"
+#include "core/math/spline.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint::trace {
@@ -21,6 +22,9 @@ constexpr double turning_weight = 0.7;
 /// Depths of the root's tip and of its side below the ground, of the height, and the side's share of the
 /// radius there.
 constexpr double root_tip = 0.035, root_side = 0.019, root_radius = 0.82;
+
+/// The sharpest bend of an axis, as its curvature times the stem's radius; at 1 the stem would fold.
+constexpr double sharpest = 0.8;
 
 using Part = std::vector<glm::dvec2>;
 
@@ -137,6 +141,36 @@ std::vector<AxisPoint> axis_points(const TracedAxis& axis, const Marks& marks, d
     return points;
 }
 
+/// Returns the greatest curvature of an axis of unit length.
+double curvature_of(const std::vector<AxisPoint>& axis) {
+    std::vector<glm::dvec3> points;
+    points.reserve(axis.size());
+    for (const AxisPoint& at : axis) points.emplace_back(at.x, at.y, at.z);
+    double greatest = 0.0;
+    for (const SplineSegment<glm::dvec3>& segment : open_spline(points))
+        for (int k = 0; k <= 4; ++k) {
+            const SplineSample<glm::dvec3> at = segment.at(0.25 * k);
+            const double speed = glm::length(at.derivative);
+            if (speed > 1e-9)
+                greatest = std::max(greatest,
+                                    glm::length(glm::cross(at.derivative, at.second_derivative)) /
+                                        (speed * speed * speed));
+        }
+    return greatest;
+}
+
+/// Returns an axis whose deviation from the line between its ends is a share of what it was.
+std::vector<AxisPoint> straighter(const std::vector<AxisPoint>& axis, double share) {
+    std::vector<AxisPoint> points = axis;
+    const AxisPoint &from = axis.front(), &to = axis.back();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(points.size() - 1);
+        points[i].x = share * points[i].x + (1.0 - share) * (from.x + t * (to.x - from.x));
+        points[i].y = share * points[i].y + (1.0 - share) * (from.y + t * (to.y - from.y));
+    }
+    return points;
+}
+
 }  // namespace
 
 FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis, const Marks& marks,
@@ -171,6 +205,22 @@ FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis, const M
     static_cast<void>(Outline(found.silhouette, "/silhouette"));
     found.axis =
         axis_points(axis, marks, profile.has_foot ? 0.0 : root_tip * height, profile.stem.back().x);
+    return found;
+}
+
+std::vector<AxisPoint> unfolded(const std::vector<AxisPoint>& axis, const Silhouette& silhouette) {
+    double radius = 0.0, low = 0.0, high = 0.0;
+    for (const OutlinePoint& point : silhouette.stem) {
+        radius = std::max(radius, point.r);
+        low = std::min(low, point.y);
+        high = std::max(high, point.y);
+    }
+    const double relative = radius / std::max(high - low, 1e-9);
+    std::vector<AxisPoint> found = axis;
+    for (double share = 1.0; share > 0.01 && curvature_of(found) * relative > sharpest;) {
+        share *= 0.75;
+        found = straighter(axis, share);
+    }
     return found;
 }
 

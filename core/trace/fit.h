@@ -22,4 +22,10 @@ struct FittedShape {
 [[nodiscard]] FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis,
                                        const Marks& marks, double height, double height_m);
 
+/// Returns an axis that bends less, if a stem would fold on it; the same one if it would not.
+///
+/// axis  as of FittedShape
+[[nodiscard]] std::vector<AxisPoint> unfolded(const std::vector<AxisPoint>& axis,
+                                              const Silhouette& silhouette);
+
 }  // namespace sporeprint::trace

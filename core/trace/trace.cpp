@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/math/elementary.h"
-#include "core/math/spline.h"
 #include "core/problems.h"
 #include "core/trace/axis.h"
 #include "core/trace/cut.h"
@@ -22,9 +21,6 @@ constexpr int least_height = 120;  ///< pixels
 
 /// Smoothing of the contour, of the height.
 constexpr double smoothing = 0.0028;
-
-/// The sharpest bend of an axis, as its curvature times the stem's radius; at 1 the stem would fold.
-constexpr double sharpest = 0.8;
 
 /// The rows and columns that a mask reaches.
 struct Extent {
@@ -57,54 +53,6 @@ void require_whole(const Mask& mask, const Extent& extent) {
                                          " border of the photograph");
 }
 
-/// Returns the greatest curvature of an axis of unit length.
-double curvature_of(const std::vector<AxisPoint>& axis) {
-    std::vector<glm::dvec3> points;
-    points.reserve(axis.size());
-    for (const AxisPoint& at : axis) points.emplace_back(at.x, at.y, at.z);
-    double greatest = 0.0;
-    for (const SplineSegment<glm::dvec3>& segment : open_spline(points))
-        for (int k = 0; k <= 4; ++k) {
-            const SplineSample<glm::dvec3> at = segment.at(0.25 * k);
-            const double speed = glm::length(at.derivative);
-            if (speed > 1e-9)
-                greatest = std::max(greatest,
-                                    glm::length(glm::cross(at.derivative, at.second_derivative)) /
-                                        (speed * speed * speed));
-        }
-    return greatest;
-}
-
-/// Returns an axis whose deviation from the line between its ends is a share of what it was.
-std::vector<AxisPoint> straighter(const std::vector<AxisPoint>& axis, double share) {
-    std::vector<AxisPoint> points = axis;
-    const AxisPoint &from = axis.front(), &to = axis.back();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double t = static_cast<double>(i) / static_cast<double>(points.size() - 1);
-        points[i].x = share * points[i].x + (1.0 - share) * (from.x + t * (to.x - from.x));
-        points[i].y = share * points[i].y + (1.0 - share) * (from.y + t * (to.y - from.y));
-    }
-    return points;
-}
-
-/// Bends an axis less until the stem does not fold.
-void unfold(Traced& found) {
-    double radius = 0.0, low = 0.0, high = 0.0;
-    for (const OutlinePoint& point : found.shape.silhouette.stem) {
-        radius = std::max(radius, point.r);
-        low = std::min(low, point.y);
-        high = std::max(high, point.y);
-    }
-    const double relative = radius / std::max(high - low, 1e-9);
-    const std::vector<AxisPoint> measured = found.shape.axis;
-    for (double share = 1.0;
-         share > 0.01 && curvature_of(found.shape.axis) * relative > sharpest;) {
-        share *= 0.75;
-        found.shape.axis = straighter(measured, share);
-        found.method = TraceMethod::straightened;
-    }
-}
-
 double angle_of(const AxisPoint& from, const AxisPoint& to) {
     return arc_tangent(to.x - from.x, to.y - from.y) * (180.0 / pi);
 }
@@ -129,7 +77,9 @@ Traced traced(const Mask& mask, const Gesture& gesture, double height_m) {
     found.shape.axis = fitted.axis;
     found.error = fitted.error;
     found.asymmetry = profile.asymmetry;
-    unfold(found);
+    const std::vector<AxisPoint> measured = found.shape.axis;
+    found.shape.axis = unfolded(measured, found.shape.silhouette);
+    if (found.shape.axis != measured) found.method = TraceMethod::straightened;
     const std::vector<AxisPoint>& points = found.shape.axis;
     found.lean_deg = angle_of(points.front(), points.back());
     found.bend_deg = std::abs(angle_of(points[points.size() - 2], points.back()) -

@@ -1,0 +1,83 @@
+#include "core/grow/nearest_species.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/grow/mushroom.h"
+#include "core/render/render.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Side of the pictures, pixels: a row is less than the 40th part of the height.
+constexpr int side = 128;
+
+/// Returns the likeness of a mushroom without variation and without ground.
+trace::Likeness likeness_at(const std::string& id, double age, const Atlas& atlas) {
+    MushroomSpec spec;
+    spec.mix.push_back({id});
+    spec.params.age = age;
+    spec.params.variation = 0.0;
+    spec.params.lod = 1;
+    spec.params.base = Base::clean;
+    spec.params.substrate = Substrate::none;
+    spec.params.texture_size = TextureSize{256};
+    PictureParams params;
+    params.view = View::front;
+    params.width = params.height = side;
+    RgbaImage image;
+    Extras extras;
+    extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
+        GlbScene alone = scene;
+        alone.stands_on_ground = false;
+        image = rendered(alone, params);
+        return {};
+    };
+    static_cast<void>(grow_mushroom(spec, atlas, extras));
+    Picture picture{side, side, Bytes(3 * static_cast<std::size_t>(side) * side)};
+    trace::Mask mask(side, side);
+    for (std::size_t i = 0; i < mask.inside.size(); ++i) {
+        mask.inside[i] = image.rgba[4 * i + 3] >= 128 ? 1 : 0;
+        for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = image.rgba[4 * i + c];
+    }
+    return trace::likeness_of(picture, mask);
+}
+
+}  // namespace
+
+NearestSpecies::NearestSpecies(const Atlas& atlas, const Parallel& parallel) {
+    std::vector<std::vector<Drawn>> of_species(atlas.entries().size());
+    std::vector<std::function<void()>> tasks;
+    for (std::size_t i = 0; i < of_species.size(); ++i)
+        tasks.emplace_back([&, i] {
+            const Species& species = atlas.entries()[i].species;
+            const std::string id = species.id.string();
+            for (const Stage& stage : species.stages)
+                of_species[i].push_back({id, stage.age, likeness_at(id, stage.age, atlas)});
+        });
+    parallel(tasks);
+    for (const std::vector<Drawn>& stages : of_species)
+        drawn_.insert(drawn_.end(), stages.begin(), stages.end());
+}
+
+std::vector<NearSpecies> NearestSpecies::find(const trace::Likeness& likeness,
+                                              std::size_t count) const {
+    std::vector<NearSpecies> found;
+    for (const Drawn& one : drawn_) {
+        const trace::Unlikeness apart = trace::unlikeness(likeness, one.likeness);
+        if (found.empty() || found.back().id != one.id) {
+            found.push_back({one.id, one.age, apart});
+        } else if (apart.total() < found.back().apart.total()) {
+            found.back().age = one.age;
+            found.back().apart = apart;
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), [](const NearSpecies& a, const NearSpecies& b) {
+        return a.apart.total() < b.apart.total();
+    });
+    found.resize(std::min(count, found.size()));
+    return found;
+}
+
+}  // namespace sporeprint

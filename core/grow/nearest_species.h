@@ -1,0 +1,45 @@
+// The species of an atlas that a mushroom on a picture looks like. For pictures, never for identifying
+// mushrooms to eat.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/atlas/atlas.h"
+#include "core/images.h"
+#include "core/trace/likeness.h"
+
+namespace sporeprint {
+
+/// A species that a mushroom looks like.
+struct NearSpecies {
+    std::string id;
+    double age = 0.0;  ///< of the stage that it is nearest to
+    trace::Unlikeness apart;
+};
+
+/// Pictures of all species of an atlas at each of their stages, as they are compared.
+class NearestSpecies {
+  public:
+    /// Draws all species from the front.
+    ///
+    /// atlas     read here alone
+    /// parallel  a task for each species
+    /// cost      about 20 ms for each stage of a species
+    explicit NearestSpecies(const Atlas& atlas, const Parallel& parallel = in_turn);
+
+    /// Returns the nearest species, each once, the nearest first.
+    [[nodiscard]] std::vector<NearSpecies> find(const trace::Likeness& likeness,
+                                                std::size_t count) const;
+
+  private:
+    struct Drawn {
+        std::string id;
+        double age = 0.0;
+        trace::Likeness likeness;
+    };
+    std::vector<Drawn> drawn_;
+};
+
+}  // namespace sporeprint

@@ -1,0 +1,164 @@
+#include "core/trace/whole_species.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/problems.h"
+#include "core/silhouette/morph_set.h"
+#include "core/silhouette/outline.h"
+#include "core/trace/fit.h"
+
+namespace sporeprint::trace {
+
+namespace {
+
+/// Ages at least so far from the traced one take over least, and what they take over.
+constexpr double farthest = 0.6, least_taken = 0.6;
+
+/// Ratios beyond these are not meant: they come from places near the axis or the ground.
+constexpr double least_ratio = 0.2, most_ratio = 5.0;
+
+const Silhouette& silhouette_of(const Stage& stage) {
+    return std::get<Swept>(stage.model.shape).silhouette;
+}
+
+/// Returns the greatest height of an outline.
+double height_of(const Silhouette& silhouette) {
+    double height = 0.0;
+    for (const auto* part : {&silhouette.stem, &silhouette.hymenium, &silhouette.cap})
+        for (const OutlinePoint& point : *part) height = std::max(height, point.y);
+    return height;
+}
+
+void require_capped(const Species& species) {
+    for (const Stage& stage : species.stages) {
+        const auto* swept = std::get_if<Swept>(&stage.model.shape);
+        if (swept && !swept->silhouette.hymenium.empty() && height_of(swept->silhouette) > 0.0)
+            continue;
+        throw InvalidInput("/template", "\"" + species.id.string() +
+                                            "\" has no stem, lower face and cap; choose another "
+                                            "species");
+    }
+}
+
+std::vector<OutlinePoint>& part_of(Silhouette& silhouette, CurveName curve) {
+    return curve == CurveName::stem       ? silhouette.stem
+           : curve == CurveName::hymenium ? silhouette.hymenium
+                                          : silhouette.cap;
+}
+
+/// Returns a ratio of two lengths that is bounded; another one where both are too small to tell.
+double ratio(double of, double to, double least, double otherwise) {
+    if (of < least || to < least) return otherwise;
+    return std::clamp(of / to, least_ratio, most_ratio);
+}
+
+/// Changes outlines as one of them is changed.
+class Change {
+  public:
+    Change(const Silhouette& from, const Silhouette& to)
+        : to_(to),
+          from_outline_(Outline::unproven(from, "/template")),
+          to_outline_(Outline::unproven(to, "/silhouette")),
+          size_(height_of(to) / height_of(from)) {
+        for (const CurveName curve : curve_names) {
+            Silhouette copy = to;
+            const std::vector<OutlinePoint>& points = part_of(copy, curve);
+            // Control points are the ends of the spline's segments.
+            std::vector<double>& shares = shares_[static_cast<std::size_t>(curve)];
+            shares = to_outline_.of(curve).segment_shares();
+            if (shares.size() != points.size())
+                throw GenerationError("a spline has a segment between two control points");
+        }
+    }
+
+    /// Returns another outline with the same change.
+    ///
+    /// taken  how far ratios count, 0..1, rather than the change in size alone
+    [[nodiscard]] Silhouette of(const Silhouette& other, double taken) const {
+        const Outline outline = Outline::unproven(other, "/template");
+        const double least = 0.01 * height_of(to_);
+        Silhouette made = to_;
+        made.junction = other.junction;
+        made.margin = other.margin;
+        for (const CurveName curve : curve_names) {
+            std::vector<OutlinePoint>& points = part_of(made, curve);
+            const std::vector<double>& shares = shares_[static_cast<std::size_t>(curve)];
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const OutlineSample own = outline.of(curve).at(shares[i]),
+                                    before = from_outline_.of(curve).at(shares[i]),
+                                    after = to_outline_.of(curve).at(shares[i]);
+                const double wide = ratio(after.r, before.r * size_, least, 1.0),
+                             high = ratio(after.y, before.y * size_, least, 1.0);
+                points[i] = {own.r * size_ * power(wide, taken),
+                             own.y * size_ * power(high, taken)};
+            }
+        }
+        made.stem.front().r = made.cap.back().r = 0.0;
+        made.hymenium.front() = made.stem.back();
+        made.cap.front() = made.hymenium.back();
+        return made;
+    }
+
+  private:
+    Silhouette to_;
+    Outline from_outline_, to_outline_;
+    double size_;
+    std::array<std::vector<double>, 3> shares_;
+};
+
+/// Returns true if the outlines of all ages are simple.
+bool is_simple(const Species& species) {
+    std::vector<ControlShape> shapes;
+    double size = 0.0;
+    for (const Stage& stage : species.stages)
+        size = std::max(size, height_of(silhouette_of(stage)));
+    for (const Stage& stage : species.stages)
+        shapes.push_back({silhouette_of(stage), size, 0, stage.age});
+    try {
+        const MorphSet set(shapes);
+        for (std::size_t i = 0; i + 1 < species.stages.size(); ++i)
+            if (!set.certificate(set.growth_weights(species.stages[i].age),
+                                 set.growth_weights(species.stages[i + 1].age))
+                     .simple)
+                return false;
+        return set
+            .certificate(set.growth_weights(species.stages.front().age),
+                         set.growth_weights(species.stages.back().age))
+            .simple;
+    } catch (const Impossible&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+WholeSpecies whole_species(const Species& template_species, const Swept& shape, double age) {
+    require_capped(template_species);
+    WholeSpecies found{template_species, 0, 1.0};
+    const std::vector<Stage>& stages = template_species.stages;
+    for (std::size_t i = 1; i < stages.size(); ++i)
+        if (std::abs(stages[i].age - age) < std::abs(stages[found.stage].age - age))
+            found.stage = i;
+    const Change change(silhouette_of(stages[found.stage]), shape.silhouette);
+    while (true) {
+        for (std::size_t i = 0; i < stages.size(); ++i) {
+            auto& swept = std::get<Swept>(found.species.stages[i].model.shape);
+            const double away =
+                std::min(std::abs(stages[i].age - stages[found.stage].age) / farthest, 1.0);
+            swept.silhouette = i == found.stage
+                                   ? shape.silhouette
+                                   : change.of(silhouette_of(stages[i]),
+                                               found.likeness * (1.0 - (1.0 - least_taken) * away));
+            swept.axis = unfolded(shape.axis, swept.silhouette);
+        }
+        if (found.likeness == 0.0 || is_simple(found.species)) return found;
+        found.likeness = found.likeness > 0.1 ? 0.5 * found.likeness : 0.0;
+    }
+}
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,127 @@
+#include "core/trace/whole_species.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/grow/mushroom.h"
+#include "core/mesh/measure.h"
+#include "core/params/reader.h"
+#include "core/params/value.h"
+#include "core/trace/trace.h"
+#include "tests/support/atlas.h"
+#include "tests/support/effort.h"
+#include "tests/support/meshes.h"
+#include "tests/support/photographs.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint::trace_whole_species_test {
+namespace {
+
+const Species& species_of(const std::string& id) { return atlas().find(id)->species; }
+
+const Swept& shape_of(const Stage& stage) { return std::get<Swept>(stage.model.shape); }
+
+double height_of(const Silhouette& silhouette) {
+    double height = 0.0;
+    for (const OutlinePoint& point : silhouette.cap) height = std::max(height, point.y);
+    return height;
+}
+
+TEST(WholeSpecies, OfItsOwnStageIsTheTemplate) {
+    for (const char* id : {"amanita_muscaria", "boletus_edulis", "coprinus_comatus"}) {
+        const Species& own = species_of(id);
+        for (std::size_t k = 0; k < own.stages.size(); ++k) {
+            const trace::WholeSpecies found =
+                trace::whole_species(own, shape_of(own.stages[k]), own.stages[k].age);
+            EXPECT_EQ(found.stage, k);
+            EXPECT_EQ(found.likeness, 1.0) << id;
+            for (std::size_t i = 0; i < own.stages.size(); ++i) {
+                const Silhouette &made = shape_of(found.species.stages[i]).silhouette,
+                                 &old = shape_of(own.stages[i]).silhouette;
+                // Stages have their control points at other shares of the length.
+                EXPECT_NEAR(height_of(made), height_of(old), 0.02 * height_of(old)) << id << k << i;
+                EXPECT_NEAR(made.stem.back().r, old.stem.back().r, 1e-9) << id << k << i;
+                EXPECT_NEAR(made.cap.front().y, old.cap.front().y, 1e-9) << id << k << i;
+            }
+        }
+    }
+}
+
+TEST(WholeSpecies, TakesOverASizeInAllStages) {
+    const Species& own = species_of("amanita_muscaria");
+    Swept doubled = shape_of(own.stages[3]);
+    for (auto* part :
+         {&doubled.silhouette.stem, &doubled.silhouette.hymenium, &doubled.silhouette.cap})
+        for (OutlinePoint& point : *part) point = {2.0 * point.r, 2.0 * point.y};
+    const trace::WholeSpecies found = trace::whole_species(own, doubled, own.stages[3].age);
+    for (std::size_t i = 0; i < own.stages.size(); ++i)
+        EXPECT_NEAR(height_of(shape_of(found.species.stages[i]).silhouette),
+                    2.0 * height_of(shape_of(own.stages[i]).silhouette), 0.002);
+}
+
+TEST(WholeSpecies, TakesOverAThickStemLessTheFartherInAge) {
+    const Species& own = species_of("russula_emetica");
+    std::size_t mature = 0;
+    while (own.stages[mature].age < 0.6) ++mature;
+    Swept thick = shape_of(own.stages[mature]);
+    for (OutlinePoint& point : thick.silhouette.stem) point.r *= 1.5;
+    thick.silhouette.hymenium.front() = thick.silhouette.stem.back();
+    const trace::WholeSpecies found = trace::whole_species(own, thick, 0.6);
+    EXPECT_EQ(found.stage, mature);
+    double last = 10.0;
+    for (std::size_t i = mature; i-- > 0;) {
+        const double ratio = shape_of(found.species.stages[i]).silhouette.stem.back().r /
+                             shape_of(own.stages[i]).silhouette.stem.back().r;
+        EXPECT_LE(ratio, last + 1e-9);
+        EXPECT_GE(ratio, std::pow(1.5, 0.55) - 0.01);
+        EXPECT_LE(ratio, 1.5 + 1e-6);
+        last = ratio;
+    }
+}
+
+TEST(WholeSpecies, OfATraceGrowsAtAllAges) {
+    const std::vector<std::string> ids = {
+        "amanita_muscaria",  "boletus_edulis",        "hygrocybe_coccinea", "coprinus_comatus",
+        "marasmius_oreades", "hypholoma_fasciculare", "russula_emetica",    "lepista_nuda"};
+    const std::size_t count = effort(16, 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string& id = ids[i % ids.size()];
+        const std::string& other = ids[(i + 3) % ids.size()];
+        const Photograph photo = photograph(
+            {id, 0.65, static_cast<std::uint32_t>(i + 21), View::front, 640}, Scenery::plain);
+        const trace::Traced traced = trace::traced(photo.truth, photo.gesture, 0.09);
+        // The template may be another species than the one on the photograph.
+        for (const std::string& of : {id, other}) {
+            trace::WholeSpecies found = trace::whole_species(species_of(of), traced.shape, 0.65);
+            found.species.id = Text<48>("traced");
+            EXPECT_EQ(shape_of(found.species.stages[found.stage]).silhouette,
+                      traced.shape.silhouette);
+            const Atlas own({.species = {dump(write(found.species))}});
+            for (const double age : {0.0, 0.3, 0.65, 1.0}) {
+                MushroomSpec spec;
+                spec.mix.push_back({"traced"});
+                spec.params.age = age;
+                spec.params.lod = 1;
+                spec.params.textures = Textures::none;
+                const Mesh mesh = mushroom_mesh(spec, resolve(spec, own));
+                EXPECT_TRUE(defects(mesh).empty()) << id << " as " << of << " at " << age;
+            }
+        }
+    }
+}
+
+TEST(WholeSpecies, NeedsATemplateWithStemAndCap) {
+    const Swept shape = shape_of(species_of("amanita_muscaria").stages[3]);
+    for (const char* id : {"ramaria_formosa", "clavariadelphus_pistillaris"})
+        EXPECT_TRUE(names(
+            refusal([&] { static_cast<void>(trace::whole_species(species_of(id), shape, 0.6)); }),
+            "/template", id));
+}
+
+}  // namespace
+}  // namespace sporeprint::trace_whole_species_test
