@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "core/grow/mushroom.h"
-#include "core/render/render.h"
 
 namespace sporeprint {
 
@@ -26,15 +25,7 @@ trace::Likeness likeness_at(const std::string& id, double age, const Atlas& atla
     PictureParams params;
     params.view = View::front;
     params.width = params.height = side;
-    RgbaImage image;
-    Extras extras;
-    extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
-        GlbScene alone = scene;
-        alone.stands_on_ground = false;
-        image = rendered(alone, params);
-        return {};
-    };
-    static_cast<void>(grow_mushroom(spec, atlas, extras));
+    const RgbaImage image = cut_out_picture(spec, atlas, params);
     Picture picture{side, side, Bytes(3 * static_cast<std::size_t>(side) * side)};
     trace::Mask mask(side, side);
     for (std::size_t i = 0; i < mask.inside.size(); ++i) {
@@ -45,6 +36,20 @@ trace::Likeness likeness_at(const std::string& id, double age, const Atlas& atla
 }
 
 }  // namespace
+
+RgbaImage cut_out_picture(const MushroomSpec& spec, const Atlas& atlas,
+                          const PictureParams& params) {
+    RgbaImage image;
+    Extras extras;
+    extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
+        GlbScene alone = scene;
+        alone.stands_on_ground = false;
+        image = rendered(alone, params);
+        return {};
+    };
+    static_cast<void>(grow_mushroom(spec, atlas, extras));
+    return image;
+}
 
 NearestSpecies::NearestSpecies(const Atlas& atlas, const Parallel& parallel) {
     std::vector<std::vector<Drawn>> of_species(atlas.entries().size());

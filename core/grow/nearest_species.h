@@ -8,9 +8,17 @@
 
 #include "core/atlas/atlas.h"
 #include "core/images.h"
+#include "core/individual/mushroom_spec.h"
+#include "core/render/render.h"
 #include "core/trace/likeness.h"
 
 namespace sporeprint {
+
+/// Returns a picture of a mushroom before nothing: without a ground and its shadow.
+///
+/// throws  as grow_mushroom() and rendered()
+[[nodiscard]] RgbaImage cut_out_picture(const MushroomSpec& spec, const Atlas& atlas,
+                                        const PictureParams& params);
 
 /// A species that a mushroom looks like.
 struct NearSpecies {

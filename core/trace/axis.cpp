@@ -180,11 +180,8 @@ glm::dvec2 foot_of(const Contour& contour, const glm::dvec2& up, double length) 
 
 }  // namespace
 
-TracedAxis::TracedAxis(std::vector<glm::dvec2> points) : points_(std::move(points)) {
-    arcs_.push_back(0.0);
-    for (std::size_t i = 1; i < points_.size(); ++i)
-        arcs_.push_back(arcs_.back() + glm::length(points_[i] - points_[i - 1]));
-}
+TracedAxis::TracedAxis(std::vector<glm::dvec2> points)
+    : points_(std::move(points)), arcs_(arc_lengths(points_)) {}
 
 std::size_t TracedAxis::segment(double arc) const {
     const auto after = std::upper_bound(arcs_.begin() + 1, arcs_.end() - 1, arc);
@@ -262,12 +259,11 @@ TracedAxis axis_of(const Contour& contour, const Stroke& drawn,
         }
         curve = fitted(all, usable > 22 ? 3 : usable > 14 ? 2 : 1);
     }
-    const auto rest = [&](double s) { return wave_at(middles, curve, s); };
     std::vector<glm::dvec2> points;
     constexpr int steps = 48;
     for (int k = 0; k <= steps; ++k) {
         const double s = last_usable * k / steps;
-        points.push_back(chord.point(s, curve.at(s) + rest(s)));
+        points.push_back(chord.point(s, curve.at(s) + wave_at(middles, curve, s)));
     }
     // Straight on through the cap, until the axis leaves it.
     const TracedAxis stem(points);

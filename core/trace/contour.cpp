@@ -105,6 +105,21 @@ Contour contour_of(const Mask& mask, double sigma) {
     return smooth;
 }
 
+std::vector<double> arc_lengths(const std::vector<glm::dvec2>& line) {
+    std::vector<double> arcs{0.0};
+    for (std::size_t i = 1; i < line.size(); ++i)
+        arcs.push_back(arcs.back() + glm::length(line[i] - line[i - 1]));
+    return arcs;
+}
+
+double distance_from_segment(const glm::dvec2& point, const glm::dvec2& from,
+                             const glm::dvec2& to) {
+    const glm::dvec2 along = to - from, off = point - from;
+    const double square = glm::dot(along, along);
+    const double t = square > 0.0 ? std::clamp(glm::dot(off, along) / square, 0.0, 1.0) : 0.0;
+    return glm::length(off - t * along);
+}
+
 double area_of(const Contour& contour) {
     double sum = 0.0;
     for (std::size_t i = 0; i < contour.size(); ++i) {

@@ -21,6 +21,13 @@ using Contour = std::vector<glm::dvec2>;
 /// cost   O(border * sigma)
 [[nodiscard]] Contour contour_of(const Mask& mask, double sigma);
 
+/// Returns how far each point of an open line is along it: 0 for the first.
+[[nodiscard]] std::vector<double> arc_lengths(const std::vector<glm::dvec2>& line);
+
+/// Returns the distance of a point from the line between two others.
+[[nodiscard]] double distance_from_segment(const glm::dvec2& point, const glm::dvec2& from,
+                                           const glm::dvec2& to);
+
 /// Returns the area within a contour, square pixels.
 [[nodiscard]] double area_of(const Contour& contour);
 

@@ -163,8 +163,7 @@ class SmallCut {
             for (std::size_t i = 0; i < next.inside.size(); ++i)
                 changed += next.inside[i] != inside.inside[i] ? 1 : 0;
             inside = next;
-            for (std::size_t i = 0; i < next.inside.size(); ++i)
-                rest.inside[i] = next.inside[i] == 0 ? 1 : 0;
+            rest = inverted(next);
             if (static_cast<double>(changed) <
                 least_change * static_cast<double>(next.inside.size()))
                 break;
@@ -316,10 +315,7 @@ Mask cut_out(const Picture& photo, const Gesture& gesture) {
     if (first.area() == 0)
         throw InvalidInput("/gesture/axis",
                            "nothing hangs together on this line; draw it from the foot to the top");
-    Mask rest(small.width, small.height);
-    for (std::size_t i = 0; i < rest.inside.size(); ++i)
-        rest.inside[i] = first.inside[i] == 0 ? 1 : 0;
-    const Colours colours = colours_of(small, first, rest, of_small.mushroom);
+    const Colours colours = colours_of(small, first, inverted(first), of_small.mushroom);
     return cleaned(refined(large, first, colours, of_large), of_large.mushroom);
 }
 

@@ -30,13 +30,12 @@ using Part = std::vector<glm::dvec2>;
 
 /// Returns how far each point of a part is along it, by length and turning, 0..1.
 std::vector<double> measure_of(const Part& part) {
-    std::vector<double> lengths{0.0}, turns{0.0};
+    const std::vector<double> lengths = arc_lengths(part);
+    std::vector<double> turns{0.0};
     for (std::size_t i = 1; i < part.size(); ++i) {
-        const glm::dvec2 step = part[i] - part[i - 1];
-        lengths.push_back(lengths.back() + glm::length(step));
         double turn = 0.0;
         if (i + 1 < part.size()) {
-            const glm::dvec2 next = part[i + 1] - part[i];
+            const glm::dvec2 step = part[i] - part[i - 1], next = part[i + 1] - part[i];
             turn = std::abs(arc_tangent(step.x * next.y - step.y * next.x, glm::dot(step, next)));
         }
         turns.push_back(turns.back() + turn);
@@ -69,12 +68,8 @@ Part chosen(const Part& part, std::size_t count) {
 
 double distance_to(const Part& line, const glm::dvec2& point) {
     double least = 1e300;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const glm::dvec2 along = line[i + 1] - line[i], off = point - line[i];
-        const double square = glm::dot(along, along);
-        const double t = square > 0.0 ? std::clamp(glm::dot(off, along) / square, 0.0, 1.0) : 0.0;
-        least = std::min(least, glm::length(off - t * along));
-    }
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        least = std::min(least, distance_from_segment(point, line[i], line[i + 1]));
     return least;
 }
 
@@ -118,9 +113,8 @@ Part with_root(const Part& stem, double height) {
 
 /// Returns the axis from the tip of the root to the top of the stem, with the direction of the cap there.
 ///
+/// root    depth of that tip below the foot, pixels
 /// radius  of the stem at its top: the axis bends towards the cap no more sharply than it allows
-///
-/// root  depth of that tip below the foot, pixels
 std::vector<AxisPoint> axis_points(const TracedAxis& axis, const Marks& marks, double root,
                                    double radius) {
     constexpr int count = 12;

@@ -2,22 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+
+#include "core/trace/contour.h"
 
 namespace sporeprint::trace {
-
-namespace {
-
-double distance_from_segment(const glm::dvec2& point, const glm::dvec2& from,
-                             const glm::dvec2& to) {
-    const glm::dvec2 along = to - from;
-    const double square = glm::dot(along, along);
-    const double t =
-        square > 0.0 ? std::clamp(glm::dot(point - from, along) / square, 0.0, 1.0) : 0.0;
-    return glm::length(point - from - t * along);
-}
-
-}  // namespace
 
 Gesture Gesture::scaled(double factor) const {
     Gesture other = *this;

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "core/math/elementary.h"
 #include "core/problems.h"
@@ -59,12 +57,7 @@ class Turns {
   public:
     /// side  -1 for the left and 1 for the right of the axis
     Turns(const std::vector<glm::dvec2>& points, double side, double reach)
-        : points_(points), side_(side) {
-        arcs_.push_back(0.0);
-        for (std::size_t i = 1; i < points.size(); ++i)
-            arcs_.push_back(arcs_.back() + glm::length(points[i] - points[i - 1]));
-        reach_ = reach;
-    }
+        : points_(points), arcs_(arc_lengths(points)), side_(side), reach_(reach) {}
 
     /// Returns the turn at a point, degrees: positive where the mushroom is convex.
     [[nodiscard]] double at(std::size_t i) const {
@@ -86,7 +79,7 @@ class Turns {
   private:
     const std::vector<glm::dvec2>& points_;
     std::vector<double> arcs_;
-    double side_, reach_ = 0.0;
+    double side_, reach_;
 };
 
 /// Marks one side. Returns true if stem and face meet at a corner.
@@ -156,9 +149,9 @@ struct CapLine {
     }
 
     /// Returns the place where the cap's own axis leaves it, at least one point from both margins.
-    [[nodiscard]] std::size_t apex(const glm::dvec2& origin, const glm::dvec2& right) const {
+    [[nodiscard]] std::size_t apex(const CapFrame& frame) const {
         for (std::size_t i = 1; i + 1 < points.size(); ++i)
-            if (glm::dot(points[i] - origin, right) >= 0.0) return i;
+            if (frame.local(points[i]).x >= 0.0) return i;
         return points.size() - 2;
     }
 };
@@ -168,20 +161,17 @@ double turn_of_cap(const Marks& marks, const TracedAxis& axis, double height) {
     constexpr double most = 24.0, step = 1.5, reluctance = 0.02;
     constexpr std::size_t places = 40;
     const CapLine line(marks.sides);
-    const glm::dvec2 up = axis.tangent(marks.stem_top), origin = axis.at(marks.stem_top);
-    const glm::dvec2 beside(-up.y, up.x);
     double best = 0.0, least = 1e300;
     for (double turn = -most; turn <= most + 1e-9; turn += step) {
-        const auto [sine, cosine] = sine_cosine(radians(turn));
-        const glm::dvec2 cap_up = cosine * up + sine * beside, right = cosine * beside - sine * up;
-        const std::size_t apex = line.apex(origin, right), last = line.points.size() - 1;
+        const CapFrame frame(axis, marks.stem_top, turn);
+        const std::size_t apex = line.apex(frame), last = line.points.size() - 1;
         double sum = 0.0;
         for (std::size_t place = 0; place < places; ++place) {
             // Each half by equal shares of its arc from the margin to the apex.
-            const glm::dvec2 a = line.points[apex * place / (places - 1)] - origin,
-                             b = line.points[last - (last - apex) * place / (places - 1)] - origin;
-            const glm::dvec2 apart(glm::dot(a, right) + glm::dot(b, right),
-                                   glm::dot(a, cap_up) - glm::dot(b, cap_up));
+            const glm::dvec2 a = frame.local(line.points[apex * place / (places - 1)]),
+                             b = frame.local(
+                                 line.points[last - (last - apex) * place / (places - 1)]);
+            const glm::dvec2 apart(a.x + b.x, a.y - b.y);
             sum += glm::dot(apart, apart) / static_cast<double>(places);
         }
         const double bias = 0.1 * height * radians(turn);
@@ -196,10 +186,7 @@ double turn_of_cap(const Marks& marks, const TracedAxis& axis, double height) {
 /// Lets both sides meet where the cap's own axis leaves the cap.
 void move_apex(Marks& marks, const TracedAxis& axis) {
     const CapLine line(marks.sides);
-    const glm::dvec2 up = axis.tangent(marks.stem_top);
-    const auto [sine, cosine] = sine_cosine(radians(marks.cap_turn_deg));
-    const std::size_t apex =
-        line.apex(axis.at(marks.stem_top), cosine * glm::dvec2(-up.y, up.x) - sine * up);
+    const std::size_t apex = line.apex({axis, marks.stem_top, marks.cap_turn_deg});
     for (std::size_t k = 0; k < 2; ++k) {
         ContourSide& side = marks.sides[k];
         side.points.resize(side.margin + 1);
@@ -218,14 +205,24 @@ void move_apex(Marks& marks, const TracedAxis& axis) {
 
 }  // namespace
 
+CapFrame::CapFrame(const TracedAxis& axis, double stem_top, double turn_deg)
+    : origin(axis.at(stem_top)), right(0.0), up(0.0) {
+    const glm::dvec2 along = axis.tangent(stem_top), beside(-along.y, along.x);
+    const auto [sine, cosine] = sine_cosine(radians(turn_deg));
+    up = cosine * along + sine * beside;
+    right = cosine * beside - sine * along;
+}
+
+glm::dvec2 CapFrame::local(const glm::dvec2& point) const {
+    return {glm::dot(point - origin, right), glm::dot(point - origin, up)};
+}
+
 Marks marks_of(const Contour& contour, const TracedAxis& axis, double height) {
     Marks marks;
-    const auto hit = [&](const glm::dvec2& from, const glm::dvec2& direction) {
-        const std::optional<double> distance = first_hit(contour, from, direction);
-        return nearest_to(contour, from + distance.value_or(0.0) * direction);
-    };
+    const glm::dvec2 low = axis.at(0.02 * axis.length()), down = -axis.tangent(0.0);
     const std::size_t apex = nearest_to(contour, axis.at(axis.length())),
-                      foot = hit(axis.at(0.02 * axis.length()), -axis.tangent(0.0));
+                      foot = nearest_to(contour,
+                                        low + first_hit(contour, low, down).value_or(0.0) * down);
     bool corners = true;
     for (std::size_t k = 0; k < 2; ++k) {
         ContourSide& side = marks.sides[k];

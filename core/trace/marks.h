@@ -29,6 +29,17 @@ struct Marks {
     bool has_corner = true;
 };
 
+/// The frame of a cap: its origin is the top of the stem, and its upward direction turns with the cap.
+struct CapFrame {
+    glm::dvec2 origin, right, up;
+
+    /// turn_deg  of the cap against the axis, to the right where positive
+    CapFrame(const TracedAxis& axis, double stem_top, double turn_deg);
+
+    /// Returns how far a point is to the right of the origin and above it, pixels.
+    [[nodiscard]] glm::dvec2 local(const glm::dvec2& point) const;
+};
+
 /// Finds the parts of a mushroom with a stem and a cap.
 ///
 /// height   of the mushroom, pixels

@@ -111,8 +111,13 @@ Mask without_holes(const Mask& mask) {
         start(mask.width - 1, y);
     }
     flood(mask, false, std::move(open), outside);
-    for (std::uint8_t& value : outside.inside) value = value == 0 ? 1 : 0;
-    return outside;
+    return inverted(outside);
+}
+
+Mask inverted(const Mask& mask) {
+    Mask found = mask;
+    for (std::uint8_t& value : found.inside) value = value == 0 ? 1 : 0;
+    return found;
 }
 
 Mask opened(const Mask& mask) {

@@ -49,6 +49,9 @@ struct Mask {
 /// Returns a mask whose holes are filled: what does not hang together with the border is inside.
 [[nodiscard]] Mask without_holes(const Mask& mask);
 
+/// Returns the pixels that are not in a mask.
+[[nodiscard]] Mask inverted(const Mask& mask);
+
 /// Returns the union of all squares of three by three pixels inside a mask: spurs of one or two pixels
 /// are gone.
 [[nodiscard]] Mask opened(const Mask& mask);

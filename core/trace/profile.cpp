@@ -28,9 +28,9 @@ constexpr double upper_stem = 0.65, widest_ring = 0.2, least_of_height = 0.02,
 /// Returns the points of a part of a side at equal shares of its arc.
 std::vector<glm::dvec2> evenly(const std::vector<glm::dvec2>& points, std::size_t from,
                                std::size_t to, std::size_t count) {
-    std::vector<double> arcs{0.0};
-    for (std::size_t i = from + 1; i <= to; ++i)
-        arcs.push_back(arcs.back() + glm::length(points[i] - points[i - 1]));
+    const std::vector<double> arcs =
+        arc_lengths({points.begin() + static_cast<std::ptrdiff_t>(from),
+                     points.begin() + static_cast<std::ptrdiff_t>(to) + 1});
     std::vector<glm::dvec2> found;
     std::size_t edge = 0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -148,19 +148,17 @@ Profile profile_of(const Contour& contour, const TracedAxis& axis, const Marks& 
         profile.stem.emplace_back(radii[k], static_cast<double>(k) * step);
 
     // Lower face and cap, turned back about the top of the stem.
-    const glm::dvec2 origin = axis.at(marks.stem_top), up = axis.tangent(marks.stem_top);
-    const glm::dvec2 beside(-up.y, up.x);
-    const auto [sine, cosine] = sine_cosine(radians(marks.cap_turn_deg));
-    const glm::dvec2 cap_up = cosine * up + sine * beside, cap_right = cosine * beside - sine * up;
+    const CapFrame frame(axis, marks.stem_top, marks.cap_turn_deg);
     std::array<std::vector<glm::dvec2>, 2> faces, caps;
     for (std::size_t k = 0; k < 2; ++k) {
         const ContourSide& side = marks.sides[k];
         const double sign = k == 0 ? -1.0 : 1.0;
         std::vector<glm::dvec2> local;
         local.reserve(side.points.size());
-        for (const glm::dvec2& point : side.points)
-            local.emplace_back(sign * glm::dot(point - origin, cap_right),
-                               marks.stem_top + glm::dot(point - origin, cap_up));
+        for (const glm::dvec2& point : side.points) {
+            const glm::dvec2 at = frame.local(point);
+            local.emplace_back(sign * at.x, marks.stem_top + at.y);
+        }
         faces[k] = evenly(local, side.junction, side.margin, face_points);
         caps[k] = evenly(local, side.margin, side.points.size() - 1, cap_points);
     }

@@ -51,9 +51,9 @@ std::vector<OutlinePoint>& part_of(Silhouette& silhouette, CurveName curve) {
                                           : silhouette.cap;
 }
 
-/// Returns a ratio of two lengths that is bounded; another one where both are too small to tell.
-double ratio(double of, double to, double least, double otherwise) {
-    if (of < least || to < least) return otherwise;
+/// Returns a ratio of two lengths that is bounded; 1 where one is too small to tell.
+double ratio(double of, double to, double least) {
+    if (of < least || to < least) return 1.0;
     return std::clamp(of / to, least_ratio, most_ratio);
 }
 
@@ -66,12 +66,10 @@ class Change {
           to_outline_(Outline::unproven(to, "/silhouette")),
           size_(height_of(to) / height_of(from)) {
         for (const CurveName curve : curve_names) {
-            Silhouette copy = to;
-            const std::vector<OutlinePoint>& points = part_of(copy, curve);
             // Control points are the ends of the spline's segments.
             std::vector<double>& shares = shares_[static_cast<std::size_t>(curve)];
             shares = to_outline_.of(curve).segment_shares();
-            if (shares.size() != points.size())
+            if (shares.size() != part_of(to_, curve).size())
                 throw GenerationError("a spline has a segment between two control points");
         }
     }
@@ -92,8 +90,8 @@ class Change {
                 const OutlineSample own = outline.of(curve).at(shares[i]),
                                     before = from_outline_.of(curve).at(shares[i]),
                                     after = to_outline_.of(curve).at(shares[i]);
-                const double wide = ratio(after.r, before.r * size_, least, 1.0),
-                             high = ratio(after.y, before.y * size_, least, 1.0);
+                const double wide = ratio(after.r, before.r * size_, least),
+                             high = ratio(after.y, before.y * size_, least);
                 points[i] = {own.r * size_ * power(wide, taken),
                              own.y * size_ * power(high, taken)};
             }

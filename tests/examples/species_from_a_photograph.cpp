@@ -28,15 +28,15 @@ int main() {
     };
     static_cast<void>(grow_mushroom(sitter, *atlas, camera));
 
-    // A line from the foot to the top, and one across the cap.
+    // A line from the foot to the top, and one across the cap, in pixels of what is traced.
+    const Picture photo =
+        trace::reduced(trace::decoded_photo(photograph, "/photo").picture, trace::large_side);
     const trace::Gesture gesture{{{445, 720}, {390, 90}}, {{150, 130}, {680, 90}}, {}, {}, {}};
-    const trace::PhotoFile photo = trace::decoded_photo(photograph, "/photo");
-    const trace::Traced traced = trace::traced(photo.picture, gesture, 0.08);
+    const trace::Mask mask = trace::cut_out(photo, gesture);
+    const trace::Traced traced = trace::traced(mask, gesture, 0.08);
 
     // All other stages are those of the species that it looks like.
-    const trace::Mask mask = trace::cut_out(photo.picture, gesture);
-    const NearSpecies nearest = NearestSpecies(*atlas).find(
-        trace::likeness_of(trace::reduced(photo.picture, trace::large_side), mask), 1)[0];
+    const NearSpecies nearest = NearestSpecies(*atlas).find(trace::likeness_of(photo, mask), 1)[0];
     Species species =
         trace::whole_species(atlas->find(nearest.id)->species, traced.shape, nearest.age).species;
     species.id = Text<48>("my_mushroom");

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "core/atlas/atlas.h"
-#include "core/grow/mushroom.h"
+#include "core/grow/nearest_species.h"
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
-#include "core/render/render.h"
 #include "tests/support/atlas.h"
 #include "tests/support/orders.h"
 
@@ -23,16 +22,7 @@ RgbaImage portrait_of(MushroomSpec spec, View view, int side) {
     PictureParams params;
     params.view = view;
     params.width = params.height = side;
-    RgbaImage image;
-    Extras extras;
-    extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
-        GlbScene alone = scene;
-        alone.stands_on_ground = false;
-        image = rendered(alone, params);
-        return {};
-    };
-    static_cast<void>(grow_mushroom(spec, *built_in_atlas(), extras));
-    return image;
+    return cut_out_picture(spec, atlas(), params);
 }
 
 RgbaImage portrait(const Sitter& sitter) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "core/math/elementary.h"
 
@@ -65,6 +66,18 @@ RC_GTEST_PROP(Contour, WalksAlongTheWholeBorderOfAPart, ()) {
                 edges += (part.at(x - 1, y) ? 0 : 1) + (part.at(x + 1, y) ? 0 : 1) +
                          (part.at(x, y - 1) ? 0 : 1) + (part.at(x, y + 1) ? 0 : 1);
     RC_ASSERT(trace::contour_of(part, 0.0).size() == edges);
+}
+
+TEST(ArcLengths, AddUpAlongALine) {
+    EXPECT_EQ(trace::arc_lengths({{0.0, 0.0}, {3.0, 4.0}, {3.0, 4.0}, {3.0, 6.0}}),
+              (std::vector<double>{0.0, 5.0, 5.0, 7.0}));
+    EXPECT_EQ(trace::arc_lengths({{9.0, 9.0}}), std::vector<double>{0.0});
+}
+
+TEST(DistanceFromSegment, IsThatOfTheLineBetweenItsEndsAndOfTheEndsBeyond) {
+    EXPECT_EQ(trace::distance_from_segment({2.0, 3.0}, {0.0, 0.0}, {10.0, 0.0}), 3.0);
+    EXPECT_EQ(trace::distance_from_segment({-3.0, 4.0}, {0.0, 0.0}, {10.0, 0.0}), 5.0);
+    EXPECT_EQ(trace::distance_from_segment({3.0, 4.0}, {0.0, 0.0}, {0.0, 0.0}), 5.0);
 }
 
 TEST(FirstHit, IsTheNearestOfTheEdgesAhead) {

@@ -81,6 +81,8 @@ RC_GTEST_PROP(Masks, AreWithinOrAroundWhatTheyCameFrom, ()) {
         for (std::uint8_t& value : other.inside) value = *rc::gen::inRange<std::uint8_t>(0, 2);
         return other;
     }();
+    RC_ASSERT(trace::inverted(trace::inverted(mask)) == mask);
+    RC_ASSERT(trace::inverted(mask).area() == mask.inside.size() - mask.area());
     RC_ASSERT(is_within(trace::opened(mask), mask));
     RC_ASSERT(trace::opened(trace::opened(mask)) == trace::opened(mask));
     RC_ASSERT(is_within(mask, trace::without_holes(mask)));

@@ -10,12 +10,24 @@
 namespace sporeprint::trace_profile_test {
 namespace {
 
-trace::Profile profile_of(const DrawnMushroom& drawn) {
-    const trace::Contour contour = trace::contour_of(drawn.mask(), 0.0028 * drawn.pixels);
+trace::Profile profile_of(const DrawnMushroom& drawn, const trace::Mask& mask) {
+    const trace::Contour contour = trace::contour_of(mask, 0.0028 * drawn.pixels);
     const trace::TracedAxis axis =
         trace::axis_of(contour, drawn.gesture().axis, drawn.axis(drawn.stem_top));
     const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels);
     return trace::profile_of(contour, axis, marks, drawn.pixels);
+}
+
+/// Returns the mask of a drawn mushroom with a disc at a place.
+///
+/// radius  of the disc, of the height
+trace::Mask with_disc(const DrawnMushroom& drawn, const glm::dvec2& middle, double radius) {
+    trace::Mask mask = drawn.mask();
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x)
+            if (glm::length(glm::dvec2(x + 0.5, y + 0.5) - middle) < radius * drawn.pixels)
+                mask.inside[mask.index(x, y)] = 1;
+    return mask;
 }
 
 TEST(Profile, IsTheOutlineThatWasDrawnHoweverTheStemBends) {
@@ -23,7 +35,7 @@ TEST(Profile, IsTheOutlineThatWasDrawnHoweverTheStemBends) {
         DrawnMushroom drawn;
         drawn.bend_deg = bend;
         drawn.lean_deg = -0.5 * bend;
-        const trace::Profile profile = profile_of(drawn);
+        const trace::Profile profile = profile_of(drawn, drawn.mask());
         // A foot that is cut askew may count as round.
         for (const glm::dvec2& at : profile.stem)
             if (at.y > 0.05 * drawn.pixels) {
@@ -47,18 +59,8 @@ TEST(Profile, IsTheOutlineThatWasDrawnHoweverTheStemBends) {
 
 TEST(Profile, EndsOnTheAxisWhereTheFootIsRound) {
     DrawnMushroom drawn;
-    trace::Mask mask = drawn.mask();
     // A bulb.
-    const glm::dvec2 bulb = drawn.axis(0.09);
-    for (int y = 0; y < mask.height; ++y)
-        for (int x = 0; x < mask.width; ++x)
-            if (glm::length(glm::dvec2(x + 0.5, y + 0.5) - bulb) < 0.1 * drawn.pixels)
-                mask.inside[mask.index(x, y)] = 1;
-    const trace::Contour contour = trace::contour_of(mask, 0.0028 * drawn.pixels);
-    const trace::TracedAxis axis =
-        trace::axis_of(contour, drawn.gesture().axis, drawn.axis(drawn.stem_top));
-    const trace::Profile profile = trace::profile_of(
-        contour, axis, trace::marks_of(contour, axis, drawn.pixels), drawn.pixels);
+    const trace::Profile profile = profile_of(drawn, with_disc(drawn, drawn.axis(0.09), 0.1));
     EXPECT_TRUE(profile.has_foot);
     EXPECT_EQ(profile.stem.front(), glm::dvec2(0.0));
     for (const glm::dvec2& at : profile.stem) {
@@ -72,7 +74,7 @@ TEST(Profile, EndsOnTheAxisWhereTheFootIsRound) {
 TEST(Profile, ReportsARingAndLeavesItOut) {
     DrawnMushroom drawn;
     drawn.ring_width = 0.06;
-    const trace::Profile profile = profile_of(drawn);
+    const trace::Profile profile = profile_of(drawn, drawn.mask());
     ASSERT_TRUE(profile.ring.has_value());
     EXPECT_NEAR(profile.ring->height / drawn.pixels, 0.45, 0.02);
     EXPECT_NEAR(profile.ring->width / drawn.pixels, 0.06, 0.012);
@@ -82,19 +84,10 @@ TEST(Profile, ReportsARingAndLeavesItOut) {
 
 TEST(Profile, KnowsHowUnlikeBothSidesAre) {
     DrawnMushroom drawn;
-    const double even = profile_of(drawn).asymmetry;
-    trace::Mask mask = drawn.mask();
+    const double even = profile_of(drawn, drawn.mask()).asymmetry;
     // A bulge on the right of the cap.
     const glm::dvec2 bulge = drawn.axis(0.8) + glm::dvec2(0.3 * drawn.pixels, 0.0);
-    for (int y = 0; y < mask.height; ++y)
-        for (int x = 0; x < mask.width; ++x)
-            if (glm::length(glm::dvec2(x + 0.5, y + 0.5) - bulge) < 0.1 * drawn.pixels)
-                mask.inside[mask.index(x, y)] = 1;
-    const trace::Contour contour = trace::contour_of(mask, 0.0028 * drawn.pixels);
-    const trace::TracedAxis axis =
-        trace::axis_of(contour, drawn.gesture().axis, drawn.axis(drawn.stem_top));
-    const trace::Profile profile = trace::profile_of(
-        contour, axis, trace::marks_of(contour, axis, drawn.pixels), drawn.pixels);
+    const trace::Profile profile = profile_of(drawn, with_disc(drawn, bulge, 0.1));
     EXPECT_GT(profile.asymmetry, even + 0.002);
 }
 
