@@ -31,6 +31,9 @@ constexpr double below_narrowest = 0.03;
 /// A junction with a corner turns by so much at least, and is at most so far from the axis as the margin.
 constexpr double corner_deg = 25.0, most_of_margin = 0.8;
 
+/// A stem is at least so long, of the height.
+constexpr double least_stem = 0.01;
+
 /// Returns the points of a contour from one of them to another, forwards or backwards.
 std::vector<glm::dvec2> walked(const Contour& contour, std::size_t from, std::size_t to,
                                bool forwards) {
@@ -243,6 +246,8 @@ Marks marks_of(const Contour& contour, const TracedAxis& axis, double height) {
     marks.has_corner = corners;
     marks.stem_top =
         std::max(0.5 * (left.local[left.junction].y + right.local[right.junction].y), 0.0);
+    if (marks.stem_top < least_stem * height)
+        throw InvalidInput("/form", "no stem found: choose club, cup, puffball or bracket");
     marks.cap_turn_deg = turn_of_cap(marks, axis, height);
     move_apex(marks, axis);
     return marks;

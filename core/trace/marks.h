@@ -43,7 +43,7 @@ struct CapFrame {
 /// Finds the parts of a mushroom with a stem and a cap.
 ///
 /// height   of the mushroom, pixels
-/// throws   InvalidInput (path "/form") if no cap stands out from the stem
+/// throws   InvalidInput (path "/form") if no cap stands out from the stem, or there is no stem
 /// source   the margin is the sharpest convex place far from the axis; the junction is the first place
 ///          below it that is nearly as near to the axis as the stem, moved to the most concave
 ///          one nearby

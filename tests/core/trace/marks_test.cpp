@@ -54,6 +54,10 @@ TEST(Marks, OfAFormWithoutACapAreRefused) {
     drawn.cap_radius = drawn.stem_radius;
     EXPECT_TRUE(
         names(refusal([&] { static_cast<void>(marks_of(drawn)); }), "/form", "no cap found"));
+    drawn = {};
+    drawn.stem_top = 0.001;
+    EXPECT_TRUE(
+        names(refusal([&] { static_cast<void>(marks_of(drawn)); }), "/form", "no stem found"));
 }
 
 }  // namespace
