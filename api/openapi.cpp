@@ -11,6 +11,7 @@
 #include "api/http/errors.h"
 #include "api/http/routes.h"
 #include "api/http/schemas.h"
+#include "api/http/text.h"
 #include "api/products/mix.h"
 #include "core/params/describe.h"
 #include "core/plant/wood.h"
@@ -96,6 +97,9 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
     }
     if (has("{name}"))
         parameters.push(path_parameter("name", "Name of the file.", text, "favicon.svg"));
+    if (has("{photo}"))
+        parameters.push(path_parameter("photo", "The secret name of a photograph.", text,
+                                       "AAAAAAAAAAAAAAAAAAAAAA"));
     if (has("{type}"))
         parameters.push(path_parameter("type", "What follows /problems/ in a problem's `type`.",
                                        text, problem_types().front().slug));
@@ -107,7 +111,7 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
                                        "base_color"));
     }
     if (route.query_schema) add_query_parameters(route.query_schema(atlas), "", parameters);
-    if (is_generated(route) && is_get(route))
+    if (is_cached(route) && is_get(route))
         parameters.push(query_parameter(
             "v", false,
             "Version token. Today's makes the answer immutable; any other is 410 with the "
@@ -134,7 +138,7 @@ struct HeaderInfo {
     const char* type = "string";
 };
 
-constexpr std::array<HeaderInfo, 17> header_infos = {{
+constexpr std::array<HeaderInfo, 18> header_infos = {{
     {"Accept-Ranges", "`bytes`, where a single range of the body can be asked for."},
     {"Allow", "Every method of the route."},
     {"Cache-Control", "How long the answer may be kept."},
@@ -145,6 +149,7 @@ constexpr std::array<HeaderInfo, 17> header_infos = {{
     {"Content-Location", "The canonical address of what was made, with today's version."},
     {"Content-Range", "Which bytes of how many; of how many, where there are none in the range."},
     {"ETag", "Names this representation; the same tag, the same bytes."},
+    {"Location", "Where the new thing is."},
     {"RateLimit", "What is left of the client's share of work, where there is a limit."},
     {"RateLimit-Policy", "The client's share of work, where there is a limit."},
     {"Retry-After", "Seconds to wait.", "integer"},
@@ -196,7 +201,9 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
             problems.insert({404, 412});
             return problems;
         case RouteKind::upload:
-            problems.insert({411, 413, 415, 422, 504});
+            // What a path or a body in JSON names may be gone.
+            if (*route.body_type == '\0' || route.request_body) problems.insert(404);
+            if (*route.body_type != '\0') problems.insert({411, 413, 415, 422, 504});
             break;
         case RouteKind::product:
         case RouteKind::image:
@@ -210,7 +217,9 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
 
 /// Returns true if ranges of the body may be requested: for files that are not compressed on
 /// demand. A range of a response to POST is never sent.
-bool has_ranges(const Route& route) { return is_get(route) && !compressible(route.media_type); }
+bool has_ranges(const Route& route) {
+    return is_get(route) && route.kind != RouteKind::upload && !compressible(route.media_type);
+}
 
 Value success_headers(const Route& route, bool is_signed) {
     Value headers = Value::object();
@@ -225,6 +234,7 @@ Value success_headers(const Route& route, bool is_signed) {
     add({"Cache-Control", "X-Request-Id", "X-Content-Type-Options", "Access-Control-Allow-Origin?",
          "Vary?", "Content-Encoding?"});
     if (is_generated(route)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
+    if (route.success == 201) add({"Location"});
     if (route.kind == RouteKind::upload) return headers;
     add({"ETag"});
     if (has_ranges(route)) add({"Accept-Ranges?"});
@@ -237,7 +247,7 @@ Value success_headers(const Route& route, bool is_signed) {
     return headers;
 }
 
-/// Returns the schema of the body of a response with status 200.
+/// Returns the schema of the body of a response that is no problem.
 Value response_schema(const Route& route) {
     const std::string_view type = route.media_type;
     if (route.response_schema) return reference(std::string("schemas/") + route.response_schema);
@@ -250,12 +260,14 @@ Value response_schema(const Route& route) {
 Value request_body(const Route& route) {
     if (route.request_body) return reference(std::string("requestBodies/") + route.request_body);
     const Value file = object({{"type", "string"}, {"format", "binary"}});
-    return object({{"required", true},
-                   {"description", "The whole file."},
-                   {"content", object({{route.body_type, object({{"schema", file}})}})}});
+    Value content = Value::object();
+    for (const std::string_view type : body_types(route))
+        content.set(type, object({{"schema", file}}));
+    return object(
+        {{"required", true}, {"description", "The whole file."}, {"content", std::move(content)}});
 }
 
-/// Returns the media types of a response with status 200, each with its schema.
+/// Returns the media types of a response that is no problem, each with its schema.
 Value success_content(const Route& route) {
     const Value schema = response_schema(route);
     const std::string_view pattern = route.pattern;
@@ -301,16 +313,16 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
     Value success =
         object({{"description", is_head ? "It is there; these are its headers." : route.summary},
                 {"headers", success_headers(route, is_signed)}});
-    if (!is_head) success.set("content", success_content(route));
+    if (!is_head && *route.media_type != '\0') success.set("content", success_content(route));
     if (!is_head && has_ranges(route)) {
         Value part = success;
         part.set("description", "The range of bytes that was asked for.");
         part.find("headers")->set("Content-Range", reference("headers/always-Content-Range"));
         responses.set("206", std::move(part));
     }
-    responses.set("200", std::move(success));
+    responses.set(std::to_string(route.success), std::move(success));
     std::set<int> problems = problems_of(route, is_signed);
-    if (is_get(route) && route.kind != RouteKind::health)
+    if (is_get(route) && route.kind != RouteKind::health && route.kind != RouteKind::upload)
         responses.set("304", reference("responses/not-modified"));
     if (!is_head && has_ranges(route)) problems.insert(416);
     for (const int status : problems)
@@ -412,8 +424,9 @@ Value openapi(const DocumentInputs& inputs, std::string_view version) {
     Value paths = Value::object();
     for (const Route* const route : inputs.routes.routes()) {
         const RouteGroup& group = *group_of.at(route);
-        Value item =
-            object({{is_get(*route) ? "get" : "post", operation(group, *route, inputs, false)}});
+        const Value* const others = paths.find(route->pattern);
+        Value item = others ? *others : Value::object();
+        item.set(lower(route->method), operation(group, *route, inputs, false));
         if (is_get(*route)) item.set("head", operation(group, *route, inputs, true));
         paths.set(route->pattern, std::move(item));
     }

@@ -5,7 +5,9 @@
 #include "api/products/leaves.h"
 #include "api/products/morphs.h"
 #include "api/products/mushrooms.h"
+#include "api/products/photos.h"
 #include "api/products/sets.h"
+#include "api/products/traces.h"
 #include "api/products/trees.h"
 #include "api/static_documents.h"
 
@@ -21,6 +23,8 @@ const RouteTable& route_table() {
         leaf_routes,
         tree_routes,
         set_routes,
+        photo_routes,
+        trace_routes,
         inspection_routes,
         reference_routes,
         health_routes,

@@ -38,11 +38,15 @@ std::optional<Response> refuse_body_type(const ResponseBuilder& responses, const
                                  "bodies with a Content-Encoding are not taken; send it plain");
     const std::string_view given = request.header("Content-Type");
     const std::string_view type = trimmed(given.substr(0, given.find(';')));
-    if (same_word(type, route.body_type)) return std::nullopt;
+    std::string accepted;
+    for (const std::string_view one : body_types(route)) {
+        if (same_word(type, one)) return std::nullopt;
+        (accepted += accepted.empty() ? "" : " or ") += one;
+    }
     return responses.problem(request, 415,
                              "the body is " +
                                  (type.empty() ? "of no stated type" : in_quotes(type)) +
-                                 "; send Content-Type: " + route.body_type);
+                                 "; send Content-Type: " + accepted);
 }
 
 /// Parses the target of a request and finds its route.
@@ -64,7 +68,7 @@ std::optional<Response> route_head(const ResponseBuilder& responses, const Reque
                                      " bytes; at most " + std::to_string(longest_target) +
                                      " are taken");
     if (request.method == "OPTIONS" && request.target == "*")
-        return responses.options(request, "GET, HEAD, POST, OPTIONS");
+        return responses.options(request, "GET, HEAD, POST, DELETE, OPTIONS");
     if (const std::string_view requested = origin_form(request.target);
         !base.empty() && requested.substr(0, requested.find('?')) == base &&
         (request.method == "GET" || request.method == "HEAD"))
@@ -111,6 +115,7 @@ Plan plan_route(Context& context, const Request& request, const RoutedRequest& r
 
 struct Service::Parts {
     std::shared_ptr<Store> store;  ///< shared with the services before and after a reload
+    LazyNearestSpecies nearest;
     Context context, correspondence_ready;
     StaticDocuments documents;
 
@@ -123,9 +128,10 @@ struct Service::Parts {
                   *store,
                   cached_only(*store),
                   route_table(),
-                  &documents},
+                  &documents,
+                  nearest},
           correspondence_ready{context.atlas,           options,       context.responses, *store,
-                               computed_inline(*store), route_table(), &documents},
+                               computed_inline(*store), route_table(), &documents,        nearest},
           documents(context.atlas, context.responses, options, route_table()) {}
 };
 

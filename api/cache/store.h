@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "api/cache/cache.h"
 #include "api/cache/directory_store.h"
+#include "api/cache/photos.h"
 #include "api/http/response_builder.h"
 #include "api/http/service_options.h"
 #include "core/grow/execution_context.h"
@@ -42,7 +44,9 @@ struct Store {
     ComputingCache<Morph> morphs;
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
-    std::atomic<std::uint64_t> inspections{0};  ///< number of uploads so far; part of their keys
+    Photos photos{std::size_t{64} << 20U};
+    std::counting_semaphore<> decoders{2};  ///< for photographs
+    std::atomic<std::uint64_t> uploads{0};  ///< their number so far; part of the keys of their jobs
 };
 
 /// Thrown by the Caches of cached_only() for a correspondence that is not cached.

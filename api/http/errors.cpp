@@ -8,6 +8,7 @@
 #include "core/individual/mushroom_spec.h"
 #include "core/params/query.h"
 #include "core/plant/tree_spec.h"
+#include "core/trace/trace_spec.h"
 
 namespace sporeprint::api {
 
@@ -56,7 +57,7 @@ constexpr std::array<ProblemType, 19> types = {{
      "The fault is ours; the log holds the details under the request id.",
      "Tell the operator the `instance` of the answer: it is the request id."},
     {501, "not-implemented", "Not implemented", "The method is not known.",
-     "Use GET, HEAD, POST or OPTIONS."},
+     "Use GET, HEAD, POST, DELETE or OPTIONS."},
     {503, "unavailable", "Unavailable",
      "The service is saturated or shutting down; Retry-After says when to come back.",
      "Wait as many seconds as Retry-After says, then try again."},
@@ -146,7 +147,8 @@ std::string parameter_name(std::string_view pointer, bool posted) {
         return pointer.empty() && posted ? std::string() : std::string(pointer);
     const std::string_view first = pointer.substr(1, pointer.find('/', 1) - 1);
     const bool of_params = is_field_of<MushroomParams>(first) || is_field_of<ColonyParams>(first) ||
-                           is_field_of<TreeParams>(first) || is_field_of<SetParams>(first);
+                           is_field_of<TreeParams>(first) || is_field_of<SetParams>(first) ||
+                           is_field_of<trace::TraceSpec>(first);
     if (posted)
         return first == "model" || first == "mix" || first == "arcs" || of_params
                    ? std::string(pointer)

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* exposed_headers =
     "Accept-Ranges, Cache-Status, Content-Disposition, Content-Encoding, Content-Length, "
-    "Content-Location, Content-Range, ETag, RateLimit, RateLimit-Policy, Retry-After, "
+    "Content-Location, Content-Range, ETag, Location, RateLimit, RateLimit-Policy, Retry-After, "
     "Server-Timing, X-Request-Id";
 
 /// The permissions of pages: their own scripts and styles, WebAssembly for the decoder of compressed

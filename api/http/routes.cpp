@@ -32,6 +32,11 @@ bool is_generated(const Route& route) {
     return is_cached(route) || route.kind == RouteKind::upload;
 }
 
+std::vector<std::string_view> body_types(const Route& route) {
+    if (*route.body_type == '\0') return {};
+    return split(route.body_type, ',');
+}
+
 RouteTable::RouteTable(std::vector<RouteGroup> groups) : groups_(std::move(groups)) {
     for (const RouteGroup& group : groups_)
         for (const Route& route : group.routes) routes_.push_back(&route);
@@ -46,6 +51,8 @@ Match RouteTable::match(std::string_view method, std::span<const std::string> se
     Match match;
     for (const Route* const route : routes_) {
         if (route->kind == RouteKind::health) continue;
+        // After the first fitting pattern only its other methods are of interest.
+        if (!match.pattern.empty() && match.pattern != route->pattern) continue;
         const std::vector<std::string_view> pattern =
             split(std::string_view(route->pattern).substr(1), '/');
         if (pattern.size() != segments.size()) continue;
@@ -56,13 +63,13 @@ Match RouteTable::match(std::string_view method, std::span<const std::string> se
         if (!fitting) continue;
         const bool is_get = std::string_view(route->method) == "GET";
         match.pattern = route->pattern;
-        match.allow = is_get ? "GET, HEAD, OPTIONS" : "POST, OPTIONS";
+        (match.allow += route->method) += is_get ? ", HEAD, " : ", ";
         if (method == route->method || (method == "HEAD" && is_get)) {
             match.route = route;
             match.captured = std::move(captured);
         }
-        return match;
     }
+    if (!match.allow.empty()) match.allow += "OPTIONS";
     return match;
 }
 

@@ -25,7 +25,7 @@ enum class RouteKind {
     document,  ///< JSON about the service, computed without a job
     product,   ///< a generated file or its description; cached
     image,     ///< an image of a product; cached
-    upload,    ///< a report about a client's file; not cached
+    upload,    ///< a client's file, or a report about one; never cached
     health     ///< the process itself; served by `server`
 };
 
@@ -39,13 +39,14 @@ struct DocumentInputs {
 
 struct Route {
     RouteKind kind;
-    const char* method;   ///< "GET" (HEAD is served too) or "POST"
+    const char* method;   ///< "GET" (HEAD is served too), "POST" or "DELETE"
     const char* pattern;  ///< "/a/{name}.glb": {name} stands before a literal ending
     const char* id;       ///< operationId
     const char* summary;
-    const char* media_type;                              ///< of the response with status 200
-    const char* body_type = "";                          ///< media type of the request body
-    std::size_t most_body = 256 << 10;                   ///< bytes of the request body
+    const char* media_type;             ///< of the response; empty for none
+    const char* body_type = "";         ///< media types of the body, by commas
+    int success = 200;                  ///< the status of a response that is no problem
+    std::size_t most_body = 256 << 10;  ///< bytes of the request body
     std::string (*example)(const Atlas&) = nullptr;      ///< returns an example of {preset}
     const char* response_schema = nullptr;               ///< name in /components/schemas
     const char* request_body = nullptr;                  ///< name in /components/requestBodies
@@ -58,6 +59,9 @@ struct Route {
 /// Returns true for products, images and uploads: their responses are generated on demand at a
 /// cost, and a signature is required where URLs are signed.
 [[nodiscard]] bool is_generated(const Route& route);
+
+/// Returns the media types that a route accepts as that of a request's body.
+[[nodiscard]] std::vector<std::string_view> body_types(const Route& route);
 
 /// Returns true for products and images: their responses are cached.
 [[nodiscard]] bool is_cached(const Route& route);

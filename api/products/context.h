@@ -11,6 +11,7 @@
 #include "api/http/routes.h"
 #include "api/http/service_options.h"
 #include "core/atlas/atlas.h"
+#include "core/grow/nearest_species.h"
 
 namespace sporeprint::api {
 
@@ -25,6 +26,7 @@ struct Context {
     Caches caches;  ///< `cached_only`, or `computed_inline` when the correspondence may be computed
     const RouteTable& routes;
     const StaticDocuments* documents = nullptr;
+    LazyNearestSpecies& nearest;  ///< of this atlas, for traces
 };
 
 /// A request with its route.

@@ -68,7 +68,7 @@ Plan plan_inspection(RouteCall& call) {
         return response;
     };
     // Each upload is a separate piece of work: its key is a number, not a hash of up to 64 MB.
-    return Job{"inspection " + std::to_string(context.store.inspections++), cost, std::move(run)};
+    return Job{"inspection " + std::to_string(context.store.uploads++), cost, std::move(run)};
 }
 
 constexpr Route routes[] = {{.kind = RouteKind::upload,

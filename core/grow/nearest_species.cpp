@@ -9,8 +9,8 @@ namespace sporeprint {
 
 namespace {
 
-/// Side of the pictures, pixels: a row is less than the 40th part of the height.
-constexpr int side = 128;
+/// Side of the pictures, pixels: two rows for each height of a likeness.
+constexpr int side = 80;
 
 /// Returns the likeness of a mushroom without variation and without ground.
 trace::Likeness likeness_at(const std::string& id, double age, const Atlas& atlas) {
@@ -18,10 +18,10 @@ trace::Likeness likeness_at(const std::string& id, double age, const Atlas& atla
     spec.mix.push_back({id});
     spec.params.age = age;
     spec.params.variation = 0.0;
-    spec.params.lod = 1;
+    spec.params.lod = 2;
     spec.params.base = Base::clean;
     spec.params.substrate = Substrate::none;
-    spec.params.texture_size = TextureSize{256};
+    spec.params.texture_size = TextureSize{128};
     PictureParams params;
     params.view = View::front;
     params.width = params.height = side;
@@ -64,6 +64,11 @@ NearestSpecies::NearestSpecies(const Atlas& atlas, const Parallel& parallel) {
     parallel(tasks);
     for (const std::vector<Drawn>& stages : of_species)
         drawn_.insert(drawn_.end(), stages.begin(), stages.end());
+}
+
+const NearestSpecies& LazyNearestSpecies::get(const Atlas& atlas, const Parallel& parallel) {
+    std::call_once(once_, [&] { made_.emplace(atlas, parallel); });
+    return *made_;
 }
 
 std::vector<NearSpecies> NearestSpecies::find(const trace::Likeness& likeness,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/trace/contour.h"
 
@@ -21,6 +22,26 @@ Gesture Gesture::scaled(double factor) const {
         other.frame->to *= factor;
     }
     return other;
+}
+
+Stroke upright_line(const Mask& mask) {
+    const auto middle_of = [&mask](int y) -> std::optional<glm::dvec2> {
+        int count = 0;
+        double sum = 0.0;
+        for (int x = 0; x < mask.width; ++x)
+            if (mask.at(x, y)) {
+                sum += x + 0.5;
+                ++count;
+            }
+        if (count == 0) return std::nullopt;
+        return glm::dvec2(sum / count, y + 0.5);
+    };
+    Stroke line;
+    for (int y = mask.height - 1; y >= 0 && line.empty(); --y)
+        if (const std::optional<glm::dvec2> foot = middle_of(y)) line.push_back(*foot);
+    for (int y = 0; y < mask.height && line.size() == 1; ++y)
+        if (const std::optional<glm::dvec2> top = middle_of(y)) line.push_back(*top);
+    return line;
 }
 
 Mask drawn(const std::vector<Stroke>& strokes, int columns, int rows, double width) {

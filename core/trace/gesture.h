@@ -28,6 +28,11 @@ struct Gesture {
     [[nodiscard]] Gesture scaled(double factor) const;
 };
 
+/// Returns the line from the middle of the lowest row of a mask to the middle of its highest one.
+///
+/// mask  at least one pixel
+[[nodiscard]] Stroke upright_line(const Mask& mask);
+
 /// Returns the pixels within half a width of strokes; what lies beyond the border is left out.
 ///
 /// width  of the strokes, pixels

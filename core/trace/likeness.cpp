@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "core/math/elementary.h"
+#include "core/trace/lab.h"
 
 namespace sporeprint::trace {
 
@@ -20,20 +20,6 @@ double median(std::vector<double>& values) {
 }
 
 }  // namespace
-
-glm::dvec3 lab_of(const glm::dvec3& rgb) {
-    const double r = srgb_to_linear(rgb.x / 255.0), g = srgb_to_linear(rgb.y / 255.0),
-                 b = srgb_to_linear(rgb.z / 255.0);
-    // The matrix of IEC 61966-2-1, each row over the white point.
-    const auto scaled = [](double share) {
-        constexpr double knee = 216.0 / 24389.0, slope = 24389.0 / 27.0;
-        return share > knee ? power(share, 1.0 / 3.0) : (slope * share + 16.0) / 116.0;
-    };
-    const double x = scaled((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505),
-                 y = scaled(0.2126 * r + 0.7152 * g + 0.0722 * b),
-                 z = scaled((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.0890);
-    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
-}
 
 Likeness likeness_of(const Picture& picture, const Mask& mask) {
     int top = mask.height, bottom = -1;

@@ -34,7 +34,4 @@ struct Unlikeness {
 
 [[nodiscard]] Unlikeness unlikeness(const Likeness& a, const Likeness& b);
 
-/// Returns the CIE L*a*b* colour of sRGB, 0..255 in each channel, in daylight (D65).
-[[nodiscard]] glm::dvec3 lab_of(const glm::dvec3& rgb);
-
 }  // namespace sporeprint::trace

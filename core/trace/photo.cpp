@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace sporeprint::trace {
 
@@ -31,7 +32,11 @@ std::vector<Cover> covers(int from, int to) {
 constexpr std::array<std::array<int, 2>, 4> beside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 /// Marks all pixels that hang together with those of a list and have a value in a mask.
-void flood(const Mask& mask, bool value, std::vector<std::array<int, 2>> open, Mask& reached) {
+///
+/// returns  their number without those of the list
+std::size_t flood(const Mask& mask, bool value, std::vector<std::array<int, 2>> open,
+                  Mask& reached) {
+    std::size_t count = 0;
     while (!open.empty()) {
         const auto [x, y] = open.back();
         open.pop_back();
@@ -41,8 +46,10 @@ void flood(const Mask& mask, bool value, std::vector<std::array<int, 2>> open, M
             if (mask.at(u, v) != value || reached.at(u, v)) continue;
             reached.inside[reached.index(u, v)] = 1;
             open.push_back({u, v});
+            ++count;
         }
     }
+    return count;
 }
 
 }  // namespace
@@ -90,7 +97,7 @@ Mask connected_with(const Mask& mask, const Mask& seeds) {
                 reached.inside[reached.index(x, y)] = 1;
                 open.push_back({x, y});
             }
-    flood(mask, true, std::move(open), reached);
+    static_cast<void>(flood(mask, true, std::move(open), reached));
     return reached;
 }
 
@@ -110,8 +117,27 @@ Mask without_holes(const Mask& mask) {
         start(0, y);
         start(mask.width - 1, y);
     }
-    flood(mask, false, std::move(open), outside);
+    static_cast<void>(flood(mask, false, std::move(open), outside));
     return inverted(outside);
+}
+
+Mask largest_part(const Mask& mask) {
+    Mask seen(mask.width, mask.height);
+    std::optional<std::array<int, 2>> first_of_largest;
+    std::size_t largest = 0;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            if (!mask.at(x, y) || seen.at(x, y)) continue;
+            seen.inside[seen.index(x, y)] = 1;
+            const std::size_t area = 1 + flood(mask, true, {{x, y}}, seen);
+            if (area <= largest) continue;
+            largest = area;
+            first_of_largest = {x, y};
+        }
+    Mask seed(mask.width, mask.height);
+    if (first_of_largest)
+        seed.inside[seed.index((*first_of_largest)[0], (*first_of_largest)[1])] = 1;
+    return connected_with(mask, seed);
 }
 
 Mask inverted(const Mask& mask) {

@@ -49,6 +49,9 @@ struct Mask {
 /// Returns a mask whose holes are filled: what does not hang together with the border is inside.
 [[nodiscard]] Mask without_holes(const Mask& mask);
 
+/// Returns the largest part of a mask that hangs together by edges of pixels; of two as large, the upper one.
+[[nodiscard]] Mask largest_part(const Mask& mask);
+
 /// Returns the pixels that are not in a mask.
 [[nodiscard]] Mask inverted(const Mask& mask);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/params/messages.h"
 #include "core/problems.h"
 #include "core/silhouette/morph_set.h"
 #include "core/silhouette/outline.h"
@@ -34,15 +35,12 @@ double height_of(const Silhouette& silhouette) {
     return height;
 }
 
-void require_capped(const Species& species) {
-    for (const Stage& stage : species.stages) {
-        const auto* swept = std::get_if<Swept>(&stage.model.shape);
-        if (swept && !swept->silhouette.hymenium.empty() && height_of(swept->silhouette) > 0.0)
-            continue;
-        throw InvalidInput("/template", "\"" + species.id.string() +
-                                            "\" has no stem, lower face and cap; choose another "
-                                            "species");
-    }
+std::size_t nearest_stage(const Species& species, double age) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < species.stages.size(); ++i)
+        if (std::abs(species.stages[i].age - age) < std::abs(species.stages[nearest].age - age))
+            nearest = i;
+    return nearest;
 }
 
 std::vector<OutlinePoint>& part_of(Silhouette& silhouette, CurveName curve) {
@@ -109,39 +107,54 @@ class Change {
     std::array<std::vector<double>, 3> shares_;
 };
 
-/// Returns true if the outlines of all ages are simple.
-bool is_simple(const Species& species) {
+}  // namespace
+
+bool can_be_template(const Species& species) {
+    return std::all_of(species.stages.begin(), species.stages.end(), [](const Stage& stage) {
+        const auto* swept = std::get_if<Swept>(&stage.model.shape);
+        return swept && !swept->silhouette.hymenium.empty() && height_of(swept->silhouette) > 0.0;
+    });
+}
+
+double height_at(const Species& species, double age) {
+    return height_of(silhouette_of(species.stages[nearest_stage(species, age)]));
+}
+
+Certificate growth_certificate(const Species& species) {
     std::vector<ControlShape> shapes;
+    shapes.reserve(species.stages.size());
     double size = 0.0;
     for (const Stage& stage : species.stages)
         size = std::max(size, height_of(silhouette_of(stage)));
     for (const Stage& stage : species.stages)
         shapes.push_back({silhouette_of(stage), size, 0, stage.age});
+    Certificate all;
+    const auto add = [&all](const Certificate& one) {
+        all.simple = all.simple && one.simple;
+        all.method = std::max(all.method, one.method);
+        all.indirect = std::max(all.indirect, one.indirect);
+    };
     try {
         const MorphSet set(shapes);
+        const auto between = [&](const Stage& from, const Stage& to) {
+            add(set.certificate(set.growth_weights(from.age), set.growth_weights(to.age)));
+        };
         for (std::size_t i = 0; i + 1 < species.stages.size(); ++i)
-            if (!set.certificate(set.growth_weights(species.stages[i].age),
-                                 set.growth_weights(species.stages[i + 1].age))
-                     .simple)
-                return false;
-        return set
-            .certificate(set.growth_weights(species.stages.front().age),
-                         set.growth_weights(species.stages.back().age))
-            .simple;
+            between(species.stages[i], species.stages[i + 1]);
+        between(species.stages.front(), species.stages.back());
     } catch (const Impossible&) {
-        return false;
+        return {false, ProofMethod::checked, 0.0};
     }
+    return all;
 }
 
-}  // namespace
-
 WholeSpecies whole_species(const Species& template_species, const Swept& shape, double age) {
-    require_capped(template_species);
-    WholeSpecies found{template_species, 0, 1.0};
+    if (!can_be_template(template_species))
+        throw InvalidInput("/template", in_quotes(template_species.id.view()) +
+                                            " has no stem, lower face and cap; choose another "
+                                            "species");
+    WholeSpecies found{template_species, nearest_stage(template_species, age), 1.0, {}};
     const std::vector<Stage>& stages = template_species.stages;
-    for (std::size_t i = 1; i < stages.size(); ++i)
-        if (std::abs(stages[i].age - age) < std::abs(stages[found.stage].age - age))
-            found.stage = i;
     const Change change(silhouette_of(stages[found.stage]), shape.silhouette);
     while (true) {
         for (std::size_t i = 0; i < stages.size(); ++i) {
@@ -154,7 +167,8 @@ WholeSpecies whole_species(const Species& template_species, const Swept& shape, 
                                                found.likeness * (1.0 - (1.0 - least_taken) * away));
             swept.axis = unfolded(shape.axis, swept.silhouette);
         }
-        if (found.likeness == 0.0 || is_simple(found.species)) return found;
+        found.certificate = growth_certificate(found.species);
+        if (found.likeness == 0.0 || found.certificate.simple) return found;
         found.likeness = found.likeness > 0.1 ? 0.5 * found.likeness : 0.0;
     }
 }

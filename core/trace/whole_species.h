@@ -5,6 +5,7 @@
 
 #include "core/model/species.h"
 #include "core/model/swept.h"
+#include "core/silhouette/morph_set.h"
 
 namespace sporeprint::trace {
 
@@ -15,7 +16,23 @@ struct WholeSpecies {
     /// How far the other stages have the proportions of the traced one, 0..1: halved until the outlines of
     /// all ages are simple. At 0 they are those of the template in another size.
     double likeness = 1.0;
+    Certificate certificate;  ///< of its outlines from each age to the next
 };
+
+/// Returns true if a species can be the template of a whole species: all its stages are swept and have a stem,
+/// a lower face and a cap.
+[[nodiscard]] bool can_be_template(const Species& species);
+
+/// Returns the height of the stage that is nearest to an age, metres.
+///
+/// pre  can_be_template(species)
+[[nodiscard]] double height_at(const Species& species, double age);
+
+/// Returns what is proven about the outlines of a species on the way from each stage to the next, and from the
+/// first to the last.
+///
+/// pre  can_be_template(species)
+[[nodiscard]] Certificate growth_certificate(const Species& species);
 
 /// Returns a species whose stage nearest to an age has a traced shape. All others have the outlines of the
 /// template, changed as the traced stage changes its own: at equal shares of each part's length, distances

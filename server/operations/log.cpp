@@ -12,6 +12,8 @@
 #include <ctime>
 #include <utility>
 
+#include "api/products/photos.h"
+
 namespace sporeprint::server {
 
 namespace {
@@ -169,7 +171,9 @@ void Log::request(const Served& served) {
         text(",\"parent_id\":", served.parent_id);
     }
     text(",\"method\":", served.method);
-    const std::string_view target = served.target;
+    // The address of a photograph is a secret.
+    const std::string_view target =
+        served.label == api::photo_pattern ? std::string_view(served.label) : served.target;
     if (target.find('?') == target.npos)
         text(",\"target\":", target);
     else

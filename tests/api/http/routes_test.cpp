@@ -49,6 +49,27 @@ TEST(Routes, HeadCountsAsGetAndOtherMethodsTellWhatIsAllowed) {
     EXPECT_EQ(route_table().match("GET", segments("/v1/mushrooms.glb")).allow, "POST, OPTIONS");
 }
 
+TEST(Routes, OfOnePathHaveAMethodEach) {
+    const auto path = segments("/v1/photos/abc.jpg");
+    EXPECT_EQ(route_table().match("GET", path).route->id, std::string("get_photo"));
+    EXPECT_EQ(route_table().match("HEAD", path).route->id, std::string("get_photo"));
+    const Match removal = route_table().match("DELETE", path);
+    EXPECT_EQ(removal.route->id, std::string("delete_photo"));
+    EXPECT_EQ(removal.captured, std::vector<std::string>{"abc"});
+    EXPECT_EQ(removal.allow, "GET, HEAD, DELETE, OPTIONS");
+    EXPECT_EQ(route_table().match("POST", path).route, nullptr);
+}
+
+TEST(Routes, AcceptTheTypesOfTheirBodies) {
+    const auto types = [](const char* method, const char* path) {
+        return body_types(*route_table().match(method, segments(path)).route);
+    };
+    EXPECT_EQ(types("POST", "/v1/photos"),
+              (std::vector<std::string_view>{"image/jpeg", "image/png", "image/webp"}));
+    EXPECT_EQ(types("POST", "/v1/traces"), std::vector<std::string_view>{"application/json"});
+    EXPECT_TRUE(types("GET", "/v1/species").empty());
+}
+
 TEST(Routes, TheSchemaIsNoMushroom) {
     EXPECT_EQ(route_table().match("GET", segments("/v1/mushrooms/schema")).route->id,
               std::string("mushroom_schema"));

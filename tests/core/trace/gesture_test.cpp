@@ -23,6 +23,17 @@ TEST(Drawn, LeavesOutWhatIsBeyondTheBorder) {
     EXPECT_EQ(trace::drawn({{}}, 20, 20, 2.0).area(), 0U);
 }
 
+TEST(UprightLine, IsFromTheLowestRowToTheHighest) {
+    trace::Mask mask(20, 30);
+    for (int y = 5; y < 25; ++y)
+        for (int x = 4; x < 10; ++x) mask.inside[mask.index(x, y)] = 1;
+    mask.inside[mask.index(12, 4)] = 1;
+    const trace::Stroke line = trace::upright_line(mask);
+    ASSERT_EQ(line.size(), 2U);
+    EXPECT_EQ(line[0], glm::dvec2(7.0, 24.5));
+    EXPECT_EQ(line[1], glm::dvec2(12.5, 4.5));
+}
+
 TEST(Gesture, IsScaledWithThePhotograph) {
     const trace::Gesture gesture{{{1.0, 2.0}, {3.0, 4.0}},
                                  {{5.0, 6.0}},

@@ -70,6 +70,15 @@ TEST(Masks, FillHolesButNotBays) {
               mask_of({"####.", "####.", "####.", "#.##."}));
 }
 
+TEST(Masks, HaveALargestPart) {
+    EXPECT_EQ(trace::largest_part(mask_of({"##..#", "..###", "#...."})),
+              mask_of({"....#", "..###", "....."}));
+    // Of two as large, the upper one.
+    EXPECT_EQ(trace::largest_part(mask_of({"..##.", ".....", "##..."})),
+              mask_of({"..##.", ".....", "....."}));
+    EXPECT_EQ(trace::largest_part(mask_of({"...", "..."})).area(), 0U);
+}
+
 TEST(Masks, LoseSpursThatAreThinnerThanThreePixels) {
     EXPECT_EQ(trace::opened(mask_of({"###..", "###..", "#####", "..#.."})),
               mask_of({"###..", "###..", "###..", "....."}));
@@ -87,7 +96,10 @@ RC_GTEST_PROP(Masks, AreWithinOrAroundWhatTheyCameFrom, ()) {
     RC_ASSERT(trace::opened(trace::opened(mask)) == trace::opened(mask));
     RC_ASSERT(is_within(mask, trace::without_holes(mask)));
     RC_ASSERT(trace::without_holes(trace::without_holes(mask)) == trace::without_holes(mask));
-    const Mask part = trace::connected_with(mask, seeds);
+    const Mask part = trace::connected_with(mask, seeds), largest = trace::largest_part(mask);
+    RC_ASSERT(is_within(largest, mask));
+    RC_ASSERT(trace::largest_part(largest) == largest);
+    RC_ASSERT((largest.area() > 0) == (mask.area() > 0));
     RC_ASSERT(is_within(part, mask));
     RC_ASSERT(trace::connected_with(mask, part) == part);
     RC_ASSERT(trace::resized(mask, mask.width, mask.height) == mask);

@@ -52,6 +52,22 @@ TEST(WholeSpecies, OfItsOwnStageIsTheTemplate) {
     }
 }
 
+TEST(WholeSpecies, IsOfCappedSpeciesAlone) {
+    EXPECT_TRUE(trace::can_be_template(species_of("boletus_edulis")));
+    EXPECT_FALSE(trace::can_be_template(species_of("artomyces_pyxidatus")));
+    const Species& own = species_of("amanita_muscaria");
+    EXPECT_EQ(trace::height_at(own, own.stages[3].age + 0.01),
+              height_of(shape_of(own.stages[3]).silhouette));
+}
+
+TEST(GrowthCertificate, IsTrueOfSpeciesAndFalseOfACrossingStage) {
+    Species species = species_of("boletus_edulis");
+    EXPECT_TRUE(trace::growth_certificate(species).simple);
+    Silhouette& outline = std::get<Swept>(species.stages[2].model.shape).silhouette;
+    std::swap(outline.cap[1], outline.cap[outline.cap.size() - 2]);
+    EXPECT_FALSE(trace::growth_certificate(species).simple);
+}
+
 TEST(WholeSpecies, TakesOverASizeInAllStages) {
     const Species& own = species_of("amanita_muscaria");
     Swept doubled = shape_of(own.stages[3]);

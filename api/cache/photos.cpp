@@ -1,0 +1,95 @@
+#include "api/cache/photos.h"
+
+#include <openssl/rand.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "core/params/types.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+/// Returns 128 random bits in base64url.
+std::string random_name() {
+    std::array<std::uint8_t, 16> bits{};
+    if (RAND_bytes(bits.data(), static_cast<int>(bits.size())) != 1)
+        throw std::runtime_error("the system gives no random numbers");
+    std::string text = base64_text(bits);
+    text.resize(Photos::name_length);
+    std::replace(text.begin(), text.end(), '+', '-');
+    std::replace(text.begin(), text.end(), '/', '_');
+    return text;
+}
+
+}  // namespace
+
+void Photos::drop_expired(Time now) {
+    while (!entries_.empty() && entries_.front().expires <= now) {
+        bytes_ -= entries_.front().bytes;
+        entries_.pop_front();
+    }
+}
+
+std::list<Photos::Entry>::iterator Photos::entry(std::string_view name, Time now) {
+    drop_expired(now);
+    return std::find_if(entries_.begin(), entries_.end(),
+                        [&](const Entry& one) { return one.name == name; });
+}
+
+std::string Photos::insert(StoredPhoto photo, Time now) {
+    // A cut is a mask of the large working copy.
+    constexpr std::size_t most_mask = std::size_t{trace::large_side} * trace::large_side;
+    const std::size_t bytes = photo.jpeg.size + most_mask;
+    Entry added{random_name(), std::make_shared<const StoredPhoto>(std::move(photo)), nullptr,
+                bytes, now + lifetime};
+    std::string name = added.name;
+    const std::lock_guard lock(mutex_);
+    drop_expired(now);
+    entries_.push_back(std::move(added));
+    bytes_ += bytes;
+    while (bytes_ > most_bytes_ && entries_.size() > 1) {
+        bytes_ -= entries_.front().bytes;
+        entries_.pop_front();
+    }
+    return name;
+}
+
+std::shared_ptr<const StoredPhoto> Photos::find(std::string_view name, Time now) {
+    const std::lock_guard lock(mutex_);
+    const auto found = entry(name, now);
+    return found == entries_.end() ? nullptr : found->photo;
+}
+
+bool Photos::erase(std::string_view name, Time now) {
+    const std::lock_guard lock(mutex_);
+    const auto found = entry(name, now);
+    if (found == entries_.end()) return false;
+    bytes_ -= found->bytes;
+    entries_.erase(found);
+    return true;
+}
+
+std::shared_ptr<const StoredCut> Photos::cut(std::string_view name, std::string_view gesture,
+                                             Time now) {
+    const std::lock_guard lock(mutex_);
+    const auto found = entry(name, now);
+    if (found == entries_.end() || !found->cut || found->cut->gesture != gesture) return nullptr;
+    return found->cut;
+}
+
+void Photos::remember(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now) {
+    const std::lock_guard lock(mutex_);
+    const auto found = entry(name, now);
+    if (found != entries_.end()) found->cut = std::move(cut);
+}
+
+std::size_t Photos::bytes() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace sporeprint::api

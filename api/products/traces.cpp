@@ -1,0 +1,334 @@
+#include "api/products/traces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "api/http/schemas.h"
+#include "api/products/context.h"
+#include "api/products/mix.h"
+#include "api/products/product.h"
+#include "core/grow/species_from_photo.h"
+#include "core/params/reader.h"
+#include "core/params/schema.h"
+#include "core/trace/outline_check.h"
+#include "core/trace/photo_file.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr const char* json = "application/json";
+
+// --- Responses --------------------------------------------------------------------------
+
+/// Most points of a line in a response: one for every few pixels of a photograph.
+constexpr std::size_t most_line_points = 256;
+
+double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+
+Value point(const glm::dvec2& pixel) {
+    const auto hundredths = [](double value) { return std::round(value * 100.0) / 100.0; };
+    return Value::Array{hundredths(pixel.x), hundredths(pixel.y)};
+}
+
+Value points(std::span<const glm::dvec2> pixels) {
+    Value list = Value::array();
+    const std::size_t count = std::min(pixels.size(), most_line_points);
+    for (std::size_t k = 0; k < count; ++k)
+        list.push(point(pixels[count > 1 ? k * (pixels.size() - 1) / (count - 1) : 0]));
+    return list;
+}
+
+Value percent(double share) { return std::round(share * 10'000.0) / 100.0; }
+
+Value angle(double degrees) { return std::round(degrees * 100.0) / 100.0; }
+
+Value named(const std::vector<NearSpecies>& nearest, const Atlas& atlas) {
+    Value list = Value::array();
+    for (const NearSpecies& one : nearest) {
+        Value species = Value::object();
+        species.set("id", one.id);
+        species.set("name", atlas.find(one.id)->species.facts.common_name.view());
+        species.set("age", one.age);
+        species.set("shape_pct", percent(one.apart.shape));
+        species.set("colour", std::round(one.apart.colour * 100.0) / 100.0);
+        list.push(std::move(species));
+    }
+    return list;
+}
+
+Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
+    const trace::Traced& traced = found.traced;
+    Value outline = Value::object();
+    outline.set("left", points(traced.left)).set("right", points(traced.right));
+    outline.set("axis", points(traced.axis));
+    Value marks = Value::object();
+    marks.set("junctions", points(traced.junctions)).set("margins", points(traced.margins));
+    Value angles = Value::object();
+    angles.set("lean_deg", angle(traced.lean_deg)).set("bend_deg", angle(traced.bend_deg));
+    Value ring;
+    if (traced.ring) {
+        ring.set("height_m", rounded(traced.ring->height_m, 1e-6));
+        ring.set("width_m", rounded(traced.ring->width_m, 1e-6));
+    }
+    Value warnings = Value::array();
+    for (const TraceWarning& warning : found.warnings) {
+        Value one = Value::object();
+        one.set("code", warning.code).set("detail", warning.detail);
+        warnings.push(std::move(one));
+    }
+    Value body = Value::object();
+    body.set("outline", std::move(outline)).set("marks", std::move(marks));
+    body.set("angles", std::move(angles));
+    body.set("asymmetry_pct", percent(traced.asymmetry)).set("error_pct", percent(traced.error));
+    body.set("ring", std::move(ring));
+    body.set("nearest", named(found.nearest, atlas)).set("template", found.template_id);
+    body.set("method", trace::name(traced.method));
+    body.set("certificate", write(found.whole.certificate));
+    body.set("likeness", found.whole.likeness);
+    body.set("warnings", std::move(warnings));
+    body.set("stage", found.whole.stage).set("species", write(found.whole.species));
+    return body;
+}
+
+/// Returns a response that only the client with the photograph may store.
+Response private_json(const Value& body) {
+    Response response;
+    response.headers = {{"Content-Type", json}, {"Cache-Control", "private, no-store"}};
+    response.body = {slice_of(dump(body))};
+    return response;
+}
+
+/// Reads a body as a described struct. Adds every problem to `errors`.
+template <class Spec>
+Spec read_spec(std::string_view body, ValidationErrors& errors) {
+    const std::optional<Value> value = read_body(body, errors);
+    if (!value) return {};
+    std::vector<Problem> problems;
+    Spec spec = read_all<Spec>(*value, problems);
+    errors.add(400, problems);
+    return spec;
+}
+
+// --- Traces -----------------------------------------------------------------------------
+
+/// Returns the mushroom on a photograph, which the last trace of it has perhaps cut out already.
+std::shared_ptr<const StoredCut> cut_of(Photos& photos, const Picture& picture,
+                                        const StoredPhoto& photo, const trace::TraceSpec& spec,
+                                        const std::string& gesture) {
+    const std::string_view name = spec.views.side.photo;
+    const auto now = std::chrono::steady_clock::now();
+    if (auto known = photos.cut(name, gesture, now)) return known;
+    auto cut = std::make_shared<const StoredCut>(
+        StoredCut{gesture, mushroom_on(picture, photo.cut_out, spec)});
+    photos.remember(name, cut, now);
+    return cut;
+}
+
+Plan plan_trace(RouteCall& call) {
+    refuse_query(call.target, call.errors);
+    Context& context = call.context;
+    ValidationErrors& errors = call.errors;
+    auto spec =
+        std::make_shared<trace::TraceSpec>(read_spec<trace::TraceSpec>(call.request.body, errors));
+    if (errors.empty() && spec->template_id.view() != "auto" &&
+        !context.atlas->find(spec->template_id.view()))
+        errors.add(404, "/template", unknown_species(spec->template_id.view(), *context.atlas));
+    const trace::ViewSpec& side = spec->views.side;
+    const auto now = std::chrono::steady_clock::now();
+    const std::shared_ptr<const StoredPhoto> photo =
+        errors.empty() ? context.store.photos.find(side.photo, now) : nullptr;
+    if (errors.empty() && !photo)
+        errors.add(404, "/views/side/photo",
+                   "there is no photograph of this name, or no longer; upload it again");
+    if (errors.empty() && !photo->cut_out && !side.gesture)
+        errors.add(422, "/views/side/gesture",
+                   "is missing; only a picture that is cut out already needs none");
+    if (!errors.empty()) return context.responses.problem(call.request, errors);
+
+    const std::string gesture = side.gesture ? dump(write(*side.gesture)) : std::string();
+    const bool is_cut = photo->cut_out || context.store.photos.cut(side.photo, gesture, now);
+    const Cost cost{.base = is_cut ? 80'000U : 400'000U};
+    auto run = [spec, photo, gesture, &context](const std::stop_token& stop,
+                                                const Observer& observer,
+                                                const Parallel& parallel) {
+        const auto go_on = [&stop] {
+            if (stop.stop_requested()) throw Cancelled();
+        };
+        observer(Step::resolve);
+        const Picture picture =
+            decoded_layers({photo->jpeg.data(), photo->jpeg.size}, trace::decoded_side, "").picture;
+        const std::shared_ptr<const StoredCut> cut =
+            cut_of(context.store.photos, picture, *photo, *spec, gesture);
+        go_on();
+        const NearestSpecies& nearest = context.nearest.get(*context.atlas, parallel);
+        go_on();
+        observer(Step::build);
+        return private_json(
+            trace_body(species_from_photo(picture, cut->mask, *spec, *context.atlas, nearest),
+                       *context.atlas));
+    };
+    return Job{"trace " + std::to_string(context.store.uploads++), cost, std::move(run)};
+}
+
+// --- Outlines ---------------------------------------------------------------------------
+
+Plan plan_outline_check(RouteCall& call) {
+    refuse_query(call.target, call.errors);
+    auto spec = std::make_shared<trace::OutlineSpec>(
+        read_spec<trace::OutlineSpec>(call.request.body, call.errors));
+    if (!call.errors.empty()) return call.context.responses.problem(call.request, call.errors);
+    auto run = [spec](const std::stop_token&, const Observer& observer, const Parallel&) {
+        observer(Step::resolve);
+        const std::optional<trace::OutlineFault> fault = trace::fault_of(*spec);
+        Value where;
+        if (fault)
+            where.set("curve", fault->curve)
+                .set("index", fault->index)
+                .set("detail", fault->detail);
+        Value body = Value::object();
+        body.set("simple", !fault).set("method", name(ProofMethod::exact));
+        body.set("fault", std::move(where));
+        return private_json(body);
+    };
+    return Job{"outline " + std::to_string(call.context.store.uploads++), Cost{.base = 300},
+               std::move(run)};
+}
+
+// --- Routes -----------------------------------------------------------------------------
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::upload,
+     .method = "POST",
+     .pattern = "/v1/traces",
+     .id = "trace",
+     .summary = "The species of a photographed mushroom. For pictures, never for identifying "
+                "mushrooms to eat.",
+     .media_type = json,
+     .body_type = json,
+     .response_schema = "trace",
+     .request_body = "trace_order",
+     .plan = plan_trace},
+    {.kind = RouteKind::upload,
+     .method = "POST",
+     .pattern = "/v1/outlines/check",
+     .id = "check_outline",
+     .summary = "Whether an outline can be grown: it neither crosses itself nor folds on its axis.",
+     .media_type = json,
+     .body_type = json,
+     .response_schema = "outline_check",
+     .request_body = "outline",
+     .plan = plan_outline_check},
+};
+
+/// Returns the schema of a value that may be null.
+Value or_null(Value schema) {
+    return object({{"oneOf", Value(Value::Array{std::move(schema), typed("null")})}});
+}
+
+Value described(Value schema, const char* description) {
+    schema.set("description", description);
+    return schema;
+}
+
+void add_schemas(Value& schemas, const Atlas&) {
+    const Value text = typed("string"), number = typed("number"), whole = typed("integer");
+    const Value pixel =
+        object({{"type", "array"}, {"items", number}, {"minItems", 2}, {"maxItems", 2}});
+    const Value line = list_of(pixel);
+    const Value warning = objects({{"code", text}, {"detail", text}});
+    const Value near = objects(
+        {{"id", text}, {"name", text}, {"age", number}, {"shape_pct", number}, {"colour", number}});
+    schemas.set(
+        "trace",
+        objects(
+            {{"outline",
+              described(objects({{"left", line}, {"right", line}, {"axis", line}}),
+                        "On the photograph, in its pixels: both sides from the foot to the apex, "
+                        "and the axis.")},
+             {"marks", described(objects({{"junctions", line}, {"margins", line}}),
+                                 "Where stem and lower face meet, and the margin of the cap: left "
+                                 "and right.")},
+             {"angles", objects({{"lean_deg", number}, {"bend_deg", number}})},
+             {"asymmetry_pct",
+              described(number, "Half the mean distance between both sides, in % of the height.")},
+             {"error_pct", described(number,
+                                     "Greatest distance of the species' outline from the "
+                                     "photographed one, in % of the height.")},
+             {"ring", or_null(objects({{"height_m", number}, {"width_m", number}}))},
+             {"nearest", described(list_of(near),
+                                   "The species that it looks like, the nearest "
+                                   "first: no identification.")},
+             {"template", described(text,
+                                    "The species that lends what the photograph does not "
+                                    "show.")},
+             {"method", described(text,
+                                  "fitted, or straightened: the stem would fold as it is "
+                                  "bent on the photograph.")},
+             {"certificate", reference("schemas/certificate")},
+             {"likeness", described(number,
+                                    "How far other ages have the proportions of the "
+                                    "photographed one.")},
+             {"warnings", list_of(warning)},
+             {"stage", described(whole, "The stage of the species that was photographed.")},
+             {"species", reference("schemas/species")}}));
+    schemas.set(
+        "outline_check",
+        objects(
+            {{"simple", typed("boolean")},
+             {"method", text},
+             {"fault", or_null(objects({{"curve", text}, {"index", whole}, {"detail", text}}))}}));
+}
+
+void add_bodies(Value& bodies, const Atlas&) {
+    const auto pixel = [](double x, double y) { return Value(Value::Array{x, y}); };
+    Value order = schema<trace::TraceSpec>();
+    order.set("required", Value(Value::Array{"views"}));
+    bodies.set(
+        "trace_order",
+        json_body(
+            "A stored photograph, where the mushroom is on it, and what is known "
+            "beside it.",
+            std::move(order),
+            object(
+                {{"views",
+                  object({{"side",
+                           object({{"photo", "AAAAAAAAAAAAAAAAAAAAAA"},
+                                   {"gesture",
+                                    object({{"axis",
+                                             Value(Value::Array{pixel(512, 900), pixel(512, 120)})},
+                                            {"cap", Value(Value::Array{pixel(250, 200),
+                                                                       pixel(780, 200)})}})}})}})},
+                 {"height_m", 0.08}})));
+    Value outline = schema<trace::OutlineSpec>();
+    outline.set("required", Value(Value::Array{"silhouette"}));
+    const auto at = [](double r, double y) { return object({{"r", r}, {"y", y}}); };
+    bodies.set(
+        "outline",
+        json_body(
+            "An outline and its axis, as in a model.", std::move(outline),
+            object(
+                {{"silhouette",
+                  object({{"stem", Value(Value::Array{at(0, -0.005), at(0.01, 0), at(0.01, 0.07)})},
+                          {"hymenium", Value(Value::Array{at(0.01, 0.07), at(0.04, 0.065)})},
+                          {"cap",
+                           Value(Value::Array{at(0.04, 0.065), at(0.03, 0.09), at(0, 0.1)})}})}})));
+}
+
+}  // namespace
+
+const RouteGroup trace_routes = {
+    .tag = "traces",
+    .description =
+        "From a photograph to a species: for pictures, never for identifying mushrooms "
+        "to eat.",
+    .routes = routes,
+    .add_links = nullptr,
+    .add_schemas = add_schemas,
+    .add_bodies = add_bodies};
+
+}  // namespace sporeprint::api

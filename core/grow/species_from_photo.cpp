@@ -1,0 +1,165 @@
+#include "core/grow/species_from_photo.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/params/messages.h"
+#include "core/problems.h"
+#include "core/trace/cut.h"
+#include "core/trace/likeness.h"
+#include "core/trace/photo_colours.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Species that are named beside the chosen one.
+constexpr std::size_t most_named = 5;
+
+/// A mushroom whose sides differ by more of its height was not seen from the side, or is not round.
+constexpr double most_asymmetry = 0.06;
+
+/// Calls `steps` and reports what they refuse as a request does that can not be met, with paths as in a
+/// TraceSpec.
+template <class Steps>
+auto with_paths_of_spec(Steps steps) {
+    try {
+        return steps();
+    } catch (const InvalidInput& refused) {
+        std::vector<Problem> problems = refused.problems();
+        for (Problem& problem : problems) {
+            const std::string_view path = problem.path;
+            if (path.starts_with("/gesture") || path.starts_with("/photo"))
+                problem.path.insert(0, "/views/side");
+            else if (path.starts_with("/form") || path.starts_with("/silhouette"))
+                problem.path = "/views/side";
+        }
+        throw Impossible(std::move(problems));
+    }
+}
+
+trace::Gesture drawn_gesture(const trace::TraceSpec& spec) {
+    const auto& gesture = spec.views.side.gesture;
+    return gesture ? trace::gesture_of(*gesture) : trace::Gesture{};
+}
+
+void require_axis_alone(const trace::Gesture& gesture) {
+    std::vector<Problem> problems;
+    const auto refuse = [&](bool is_given, const char* stroke) {
+        if (is_given)
+            report(problems, std::string("/gesture/") + stroke,
+                   "is for photographs; this picture is cut out already");
+    };
+    refuse(!gesture.cap.empty(), "cap");
+    refuse(!gesture.keep.empty(), "keep");
+    refuse(!gesture.drop.empty(), "drop");
+    refuse(gesture.frame.has_value(), "frame");
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+}
+
+/// Returns a picture that is cut out as a mask in one part, the one that the gesture crosses or the largest.
+trace::Mask cleaned(const trace::Mask& cut_out, const trace::Gesture& gesture,
+                    const Picture& large) {
+    trace::Mask mask = trace::resized(cut_out, large.width, large.height);
+    if (!gesture.axis.empty())
+        mask = trace::connected_with(mask,
+                                     trace::drawn({gesture.axis}, large.width, large.height, 3.0));
+    mask = trace::without_holes(trace::largest_part(mask));
+    if (mask.area() == 0)
+        throw InvalidInput("/gesture/axis",
+                           "nothing hangs together on this line; draw it from the foot to the top");
+    return mask;
+}
+
+/// Returns a trace in pixels of another copy.
+trace::Traced scaled(trace::Traced traced, double factor) {
+    const auto scale = [factor](glm::dvec2& point) { point *= factor; };
+    for (std::vector<glm::dvec2>* line : {&traced.left, &traced.right, &traced.axis})
+        std::for_each(line->begin(), line->end(), scale);
+    std::for_each(traced.junctions.begin(), traced.junctions.end(), scale);
+    std::for_each(traced.margins.begin(), traced.margins.end(), scale);
+    return traced;
+}
+
+/// Returns the species that lends what the photograph does not show, and the age of the mushroom as it would
+/// be one of these.
+NearSpecies chosen_template(const trace::TraceSpec& spec, const Atlas& atlas,
+                            const std::vector<NearSpecies>& sorted) {
+    const bool is_any = spec.template_id.view() == "auto";
+    const auto found = std::find_if(sorted.begin(), sorted.end(), [&](const NearSpecies& one) {
+        return is_any ? trace::can_be_template(atlas.find(one.id)->species)
+                      : one.id == spec.template_id.view();
+    });
+    if (found == sorted.end())
+        throw InvalidInput("/template",
+                           is_any ? "no species has a stem, a lower face and a cap"
+                                  : "there is no species " + in_quotes(spec.template_id.view()));
+    return *found;
+}
+
+std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
+    std::vector<TraceWarning> warnings;
+    const auto percent = [](double share) {
+        return number_text(static_cast<double>(static_cast<int>(share * 1000.0 + 0.5)) / 10.0) +
+               " %";
+    };
+    if (found.traced.asymmetry > most_asymmetry)
+        warnings.push_back({"asymmetry", "Its left and right side differ by " +
+                                             percent(found.traced.asymmetry) +
+                                             " of its height; the species has their mean."});
+    if (found.traced.method == trace::TraceMethod::straightened)
+        warnings.push_back({"method",
+                            "Its stem would fold as it is bent on the photograph, so the "
+                            "species bends less."});
+    if (found.whole.likeness < 1.0)
+        warnings.push_back({"likeness", "Its other ages have " + percent(found.whole.likeness) +
+                                            " of its proportions, or their outlines would cross "
+                                            "themselves on the way."});
+    return warnings;
+}
+
+}  // namespace
+
+trace::Mask mushroom_on(const Picture& photo, const std::optional<trace::Mask>& cut_out,
+                        const trace::TraceSpec& spec) {
+    return with_paths_of_spec([&] {
+        const trace::Gesture gesture = drawn_gesture(spec);
+        if (!cut_out) return trace::cut_out(photo, gesture);
+        require_axis_alone(gesture);
+        const Picture large = trace::reduced(photo, trace::large_side);
+        return cleaned(*cut_out, gesture.scaled(static_cast<double>(large.width) / photo.width),
+                       large);
+    });
+}
+
+SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mask,
+                                    const trace::TraceSpec& spec, const Atlas& atlas,
+                                    const NearestSpecies& nearest) {
+    return with_paths_of_spec([&] {
+        const double factor = static_cast<double>(mask.width) / photo.width;
+        trace::Gesture gesture = drawn_gesture(spec).scaled(factor);
+        if (gesture.axis.empty()) gesture.axis = trace::upright_line(mask);
+        const Picture large = trace::reduced(photo, trace::large_side);
+        SpeciesFromPhoto found;
+        found.nearest = nearest.find(trace::likeness_of(large, mask), atlas.entries().size());
+        const NearSpecies chosen = chosen_template(spec, atlas, found.nearest);
+        found.template_id = chosen.id;
+        found.nearest.resize(std::min(found.nearest.size(), most_named));
+        const Species& lender = atlas.find(chosen.id)->species;
+        if (!trace::can_be_template(lender))
+            throw InvalidInput("/template", in_quotes(chosen.id) +
+                                                " has no stem, lower face and cap; choose another "
+                                                "species");
+        const double height = spec.height_m.value_or(trace::height_at(lender, chosen.age));
+        const trace::Traced traced = trace::traced(mask, gesture, height);
+        found.whole = trace::whole_species(lender, traced.shape, chosen.age);
+        trace::give_colours(found.whole.species, found.whole.stage,
+                            trace::part_colours(large, mask, traced));
+        found.whole.species.id = spec.id;
+        found.traced = scaled(traced, 1.0 / factor);
+        found.warnings = warnings_of(found);
+        return found;
+    });
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,137 @@
+// The description of a trace, as clients write it: photographs, the gesture on each, and what the species
+// should be.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/params/describe.h"
+#include "core/params/messages.h"
+#include "core/params/types.h"
+#include "core/trace/gesture.h"
+
+namespace sporeprint::trace {
+
+/// A point on a photograph as it is written: [x, y].
+using PhotoPoint = std::array<double, 2>;
+
+/// The gesture on a photograph, in pixels of the stored photograph from its upper left corner.
+struct GestureSpec {
+    static constexpr std::size_t most_points = 64, most_strokes = 16;
+
+    std::vector<PhotoPoint> axis, cap;
+    std::vector<std::vector<PhotoPoint>> keep, drop;
+    std::optional<std::array<double, 4>> frame;
+
+    static constexpr void fields(auto visit) {
+        using G = GestureSpec;
+        visit(&G::axis, Info{.name = "axis",
+                             .unit = "px",
+                             .max = 2048,
+                             .most = most_points,
+                             .doc = "A line from the foot to the top of the mushroom."});
+        visit(&G::cap, Info{.name = "cap",
+                            .unit = "px",
+                            .max = 2048,
+                            .most = most_points,
+                            .doc = "A line across the cap."});
+        visit(&G::keep, Info{.name = "keep",
+                             .unit = "px",
+                             .max = 2048,
+                             .most = most_points,
+                             .doc = "Lines on what belongs to the mushroom too."});
+        visit(&G::drop, Info{.name = "drop",
+                             .unit = "px",
+                             .max = 2048,
+                             .most = most_points,
+                             .doc = "Lines on what does not belong to it."});
+        visit(&G::frame, Info{.name = "frame",
+                              .unit = "px",
+                              .max = 2048,
+                              .doc = "A rectangle with all of the mushroom in it: x and y of its "
+                                     "upper left corner, width and height."});
+    }
+    /// Reports too many strokes.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        const std::size_t strokes =
+            (axis.empty() ? 0 : 1) + (cap.empty() ? 0 : 1) + keep.size() + drop.size();
+        if (strokes > most_strokes)
+            report(problems, path,
+                   std::to_string(strokes) + " strokes; at most " + std::to_string(most_strokes) +
+                       " are allowed");
+    }
+    bool operator==(const GestureSpec&) const = default;
+};
+
+/// A view of a mushroom.
+struct ViewSpec {
+    Text<22> photo;
+    std::optional<GestureSpec> gesture;
+
+    static constexpr void fields(auto visit) {
+        visit(&ViewSpec::photo,
+              Info{.name = "photo",
+                   .most = 22,
+                   .doc = "Name of an uploaded photograph, as POST /v1/photos gives it."});
+        visit(&ViewSpec::gesture,
+              Info{.name = "gesture",
+                   .doc = "Where the mushroom is; may be left out for a picture that is cut out "
+                          "already."});
+    }
+    /// Reports a missing photograph.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (photo.empty()) report(problems, path + "/photo", "is missing");
+    }
+    bool operator==(const ViewSpec&) const = default;
+};
+
+/// The views that are traced.
+struct ViewsSpec {
+    ViewSpec side;
+
+    static constexpr void fields(auto visit) {
+        visit(&ViewsSpec::side, Info{.name = "side", .doc = "The mushroom seen from the side."});
+    }
+    bool operator==(const ViewsSpec&) const = default;
+};
+
+/// A trace.
+struct TraceSpec {
+    ViewsSpec views;
+    Text<48> template_id{"auto"};
+    Text<48> id{"my_mushroom"};
+    std::optional<double> height_m;
+
+    static constexpr void fields(auto visit) {
+        using T = TraceSpec;
+        visit(&T::views, Info{.name = "views", .doc = "Photographs of the mushroom."});
+        visit(&T::template_id,
+              Info{.name = "template",
+                   .most = 48,
+                   .doc = "The species that lends all that the photograph does not show: other "
+                          "ages, the lower face, ornaments, spread. auto: the one that it looks "
+                          "like most."});
+        visit(&T::id, Info{.name = "id", .most = 48, .doc = "Id of the new species."});
+        visit(&T::height_m, Info{.name = "height_m",
+                                 .unit = "m",
+                                 .min = 0.002,
+                                 .max = 1.0,
+                                 .doc = "Height of the photographed mushroom; without it that of "
+                                        "the template at its age."});
+    }
+    /// Reports ids that no species can have.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (const std::string said = invalid_id_message(id); !said.empty())
+            report(problems, path + "/id", said);
+        if (const std::string said = invalid_id_message(template_id); !said.empty())
+            report(problems, path + "/template", said);
+    }
+    bool operator==(const TraceSpec&) const = default;
+};
+
+/// Returns a gesture as it is traced.
+[[nodiscard]] Gesture gesture_of(const GestureSpec& spec);
+
+}  // namespace sporeprint::trace

@@ -1,0 +1,163 @@
+// POST /v1/traces and POST /v1/outlines/check.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/surface/codecs.h"
+#include "tests/api/support.h"
+#include "tests/support/drawn_mushroom.h"
+
+namespace sporeprint::api::products_traces_test {
+namespace {
+
+using namespace test;
+
+/// One service for all tests, which draws the species of the atlas once.
+class TraceRoutes : public testing::Test {
+  protected:
+    static Service& service() {
+        static Service one(built_in_atlas(), ServiceOptions{});
+        return one;
+    }
+    static Response ask(const Request& one) { return handle(service(), one); }
+
+    /// Returns the name of a picture of a drawn mushroom: red cap, white stem, on grey or on nothing.
+    static std::string uploaded(bool is_cut_out) {
+        const DrawnMushroom drawn = mushroom();
+        const trace::Mask mask = drawn.mask();
+        Bytes rgba;
+        rgba.reserve(4 * mask.inside.size());
+        const double margin = drawn.foot().y - 0.7 * drawn.pixels;
+        for (int y = 0; y < drawn.side; ++y)
+            for (int x = 0; x < drawn.side; ++x) {
+                if (!mask.at(x, y))
+                    rgba.insert(rgba.end(),
+                                {120, 125, 120, static_cast<std::uint8_t>(is_cut_out ? 0 : 255)});
+                else if (y < margin)
+                    rgba.insert(rgba.end(), {200, 40, 30, 255});
+                else
+                    rgba.insert(rgba.end(), {235, 230, 220, 255});
+            }
+        const Bytes file = png(rgba, drawn.side, drawn.side);
+        const Response response =
+            ask(post(std::string(file.begin(), file.end()), "/v1/photos", "image/png"));
+        EXPECT_EQ(response.status, 201) << text_of(response);
+        return json_of(response).find("photo")->as_string();
+    }
+    static DrawnMushroom mushroom() {
+        DrawnMushroom drawn;
+        drawn.side = 400;
+        drawn.pixels = 280.0;
+        return drawn;
+    }
+    static std::string order(const std::string& photo, bool has_gesture = true,
+                             const std::string& more = "") {
+        const DrawnMushroom drawn = mushroom();
+        const auto point = [](const glm::dvec2& at) {
+            return '[' + std::to_string(at.x) + ',' + std::to_string(at.y) + ']';
+        };
+        const glm::dvec2 across(0.3 * drawn.pixels, -0.1 * drawn.pixels);
+        const std::string gesture = R"(,"gesture":{"axis":[)" + point(drawn.axis(0.03)) + ',' +
+                                    point(drawn.axis(0.92)) + R"(],"cap":[)" +
+                                    point(drawn.axis(0.7) + glm::dvec2(-across.x, across.y)) + ',' +
+                                    point(drawn.axis(0.7) + across) + "]}";
+        return R"({"views":{"side":{"photo":")" + photo + '"' + (has_gesture ? gesture : "") +
+               "}}" + more + '}';
+    }
+    static Response trace(const std::string& body) { return ask(post(body, "/v1/traces")); }
+};
+
+TEST_F(TraceRoutes, GiveASpeciesThatGrows) {
+    const Response response =
+        trace(order(uploaded(false), true, R"(,"height_m":0.1,"id":"red_one")"));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    EXPECT_EQ(header(response, "Cache-Control"), "private, no-store");
+    EXPECT_EQ(header(response, "ETag"), "");
+    const Value found = json_of(response);
+    const DrawnMushroom drawn = mushroom();
+    // The marks are those of the drawing, in pixels of the photograph.
+    const Value& margins = *found.at_pointer("/marks/margins");
+    EXPECT_NEAR(
+        margins.items()[1].items()[0].as_number() - margins.items()[0].items()[0].as_number(),
+        2.0 * drawn.cap_radius * drawn.pixels, 8.0);
+    EXPECT_NEAR(found.at_pointer("/outline/left/0/1")->as_number(), drawn.foot().y, 8.0);
+    EXPECT_EQ(found.find("nearest")->items().size(), 5U);
+    EXPECT_TRUE(found.at_pointer("/certificate/simple")->as_bool());
+    EXPECT_TRUE(found.find("ring")->is_null());
+    EXPECT_LT(found.find("error_pct")->as_number(), 2.0);
+    EXPECT_EQ(found.at_pointer("/species/id")->as_string(), "red_one");
+
+    // Its stage is a model like any other.
+    const auto stage = static_cast<std::size_t>(found.find("stage")->as_number());
+    const Value& model = *found.at_pointer("/species/stages")->items()[stage].find("model");
+    Value body = Value::object();
+    body.set("model", model).set("lod", 2);
+    const Response glb = ask(post(dump(body)));
+    EXPECT_EQ(glb.status, 200) << text_of(glb).substr(0, 300);
+    EXPECT_EQ(text_of(glb).substr(0, 4), "glTF");
+}
+
+TEST_F(TraceRoutes, OfOnePhotographAndGestureAreEqual) {
+    const std::string body = order(uploaded(false));
+    const std::string first = text_of(trace(body));
+    EXPECT_EQ(text_of(trace(body)), first);
+    // Another upload of the same picture, cut anew.
+    EXPECT_EQ(text_of(trace(order(uploaded(false)))), first);
+}
+
+TEST_F(TraceRoutes, OfAPictureThatIsCutOutNeedNoGesture) {
+    const std::string photo = uploaded(true);
+    const Response response = trace(order(photo, false));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    const Response with_cap = trace(order(photo));
+    expect_problem(with_cap, 422);
+    EXPECT_TRUE(names(with_cap, "/views/side/gesture/cap", "cut out already"));
+    const Response missing = trace(order(uploaded(false), false));
+    expect_problem(missing, 422);
+    EXPECT_TRUE(names(missing, "/views/side/gesture", "is missing"));
+}
+
+TEST_F(TraceRoutes, NameWhatIsWrong) {
+    const std::string photo = uploaded(false);
+    const Response gone = trace(order("AAAAAAAAAAAAAAAAAAAAAA"));
+    expect_problem(gone, 404);
+    EXPECT_TRUE(names(gone, "/views/side/photo", "upload it again"));
+    const Response unknown = trace(order(photo, true, R"(,"template":"boletus")"));
+    expect_problem(unknown, 404);
+    EXPECT_TRUE(names(unknown, "/template", "boletus_edulis"));
+    const Response coral = trace(order(photo, true, R"(,"template":"artomyces_pyxidatus")"));
+    expect_problem(coral, 422);
+    EXPECT_TRUE(names(coral, "/template", "no stem"));
+    const Response high = trace(order(photo, true, R"(,"height_m":3)"));
+    expect_problem(high, 400);
+    EXPECT_TRUE(names(high, "/height_m", "0.002..1"));
+    const Response outside = trace(R"({"views":{"side":{"photo":")" + photo +
+                                   R"(","gesture":{"axis":[[10,10],[900,20]]}}}})");
+    expect_problem(outside, 422);
+    EXPECT_TRUE(names(outside, "/views/side/gesture/axis/1", "400 x 400"));
+    expect_problem(trace("[]"), 400);
+    expect_problem(trace("{}"), 400);
+}
+
+TEST_F(TraceRoutes, CheckOutlines) {
+    const auto check = [&](const std::string& cap) {
+        return ask(post(R"({"silhouette":{"stem":[{"r":0,"y":-0.005},{"r":0.01,"y":0},)"
+                        R"({"r":0.01,"y":0.07}],"hymenium":[{"r":0.01,"y":0.07},)"
+                        R"({"r":0.04,"y":0.065}],"cap":[{"r":0.04,"y":0.065},)" +
+                            cap + R"({"r":0,"y":0.1}]}})",
+                        "/v1/outlines/check"));
+    };
+    const Response simple = check(R"({"r":0.03,"y":0.09},)");
+    ASSERT_EQ(simple.status, 200) << text_of(simple);
+    EXPECT_TRUE(json_of(simple).find("simple")->as_bool());
+    EXPECT_TRUE(json_of(simple).find("fault")->is_null());
+    const Value crossing = json_of(check(R"({"r":0.005,"y":0.03},)"));
+    EXPECT_FALSE(crossing.find("simple")->as_bool());
+    EXPECT_FALSE(crossing.at_pointer("/fault/curve")->as_string().empty());
+    const Response open = ask(post(R"({"silhouette":{"stem":[],"cap":[]}})", "/v1/outlines/check"));
+    expect_problem(open, 400);
+    EXPECT_TRUE(names(open, "/silhouette"));
+}
+
+}  // namespace
+}  // namespace sporeprint::api::products_traces_test
