@@ -80,10 +80,6 @@ struct ViewSpec {
                    .doc = "Where the mushroom is; may be left out for a picture that is cut out "
                           "already."});
     }
-    /// Reports a missing photograph.
-    void check(const std::string& path, std::vector<Problem>& problems) const {
-        if (photo.empty()) report(problems, path + "/photo", "is missing");
-    }
     bool operator==(const ViewSpec&) const = default;
 };
 
@@ -121,8 +117,9 @@ struct TraceSpec {
                                  .doc = "Height of the photographed mushroom; without it that of "
                                         "the template at its age."});
     }
-    /// Reports ids that no species can have.
+    /// Reports a missing photograph, and ids that no species can have.
     void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (views.side.photo.empty()) report(problems, path + "/views/side/photo", "is missing");
         if (const std::string said = invalid_id_message(id); !said.empty())
             report(problems, path + "/id", said);
         if (const std::string said = invalid_id_message(template_id); !said.empty())

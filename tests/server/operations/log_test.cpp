@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "api/products/photos.h"
+
 namespace sporeprint::server::operations_log_test {
 namespace {
 
@@ -93,6 +95,20 @@ TEST(Log, RedactsSignatures) {
         EXPECT_EQ(redacted(target), shown);
         EXPECT_NE(text.find("\"target\":\"" + shown + '"'), std::string::npos) << text;
     }
+}
+
+TEST(Log, NeverHasTheNameOfAPhotograph) {
+    testing::internal::CaptureStderr();
+    {
+        Log log(LogLevel::info);
+        Served served;
+        served.target = "/v1/photos/T3UJ47QBlBLrfrujPzBREA.jpg";
+        served.label = api::photo_pattern;
+        log.request(served);
+    }
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(text.find("T3UJ47"), std::string::npos) << text;
+    EXPECT_NE(text.find("/v1/photos/{photo}.jpg"), std::string::npos) << text;
 }
 
 }  // namespace
