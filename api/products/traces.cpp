@@ -103,15 +103,13 @@ Response private_json(const Value& body) {
     return response;
 }
 
-/// Reads a body as a described struct. Adds every problem to `errors`.
+/// Reads a body as a described struct, and what is wrong with it.
 template <class Spec>
-Spec read_spec(std::string_view body, ValidationErrors& errors) {
-    const std::optional<Value> value = read_body(body, errors);
-    if (!value) return {};
-    std::vector<Problem> problems;
-    Spec spec = read_all<Spec>(*value, problems);
-    errors.add(400, problems);
-    return spec;
+std::pair<Spec, std::vector<Problem>> read_spec(std::string_view body, ValidationErrors& errors) {
+    std::pair<Spec, std::vector<Problem>> read;
+    if (const std::optional<Value> value = read_body(body, errors))
+        read.first = read_all<Spec>(*value, read.second);
+    return read;
 }
 
 // --- Traces -----------------------------------------------------------------------------
@@ -133,8 +131,9 @@ Plan plan_trace(RouteCall& call) {
     refuse_query(call.target, call.errors);
     Context& context = call.context;
     ValidationErrors& errors = call.errors;
-    auto spec =
-        std::make_shared<trace::TraceSpec>(read_spec<trace::TraceSpec>(call.request.body, errors));
+    auto read = read_spec<trace::TraceSpec>(call.request.body, errors);
+    errors.add(400, read.second);
+    const auto spec = std::make_shared<const trace::TraceSpec>(std::move(read.first));
     if (errors.empty() && spec->template_id.view() != "auto" &&
         !context.atlas->find(spec->template_id.view()))
         errors.add(404, "/template", unknown_species(spec->template_id.view(), *context.atlas));
@@ -179,8 +178,9 @@ Plan plan_trace(RouteCall& call) {
 
 Plan plan_outline_check(RouteCall& call) {
     refuse_query(call.target, call.errors);
-    auto spec = std::make_shared<trace::OutlineSpec>(
-        read_spec<trace::OutlineSpec>(call.request.body, call.errors));
+    auto read = read_spec<trace::OutlineSpec>(call.request.body, call.errors);
+    add_problems(read.second, read.first, "", true, call.errors);
+    auto spec = std::make_shared<trace::OutlineSpec>(std::move(read.first));
     if (!call.errors.empty()) return call.context.responses.problem(call.request, call.errors);
     auto run = [spec](const std::stop_token&, const Observer& observer, const Parallel&) {
         observer(Step::resolve);

@@ -155,8 +155,9 @@ TEST_F(TraceRoutes, CheckOutlines) {
     EXPECT_FALSE(crossing.find("simple")->as_bool());
     EXPECT_FALSE(crossing.at_pointer("/fault/curve")->as_string().empty());
     const Response open = ask(post(R"({"silhouette":{"stem":[],"cap":[]}})", "/v1/outlines/check"));
-    expect_problem(open, 400);
+    expect_problem(open, 422);
     EXPECT_TRUE(names(open, "/silhouette"));
+    expect_problem(ask(post(R"({"outline":{}})", "/v1/outlines/check")), 400);
 }
 
 }  // namespace

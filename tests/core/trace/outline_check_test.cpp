@@ -17,10 +17,12 @@ trace::OutlineSpec outline() {
 
 TEST(FaultOf, IsNoneForSpeciesOfTheAtlas) {
     for (const AtlasEntry& entry : atlas().entries())
-        for (const Stage& stage : entry.species.stages)
-            if (const auto* shape = std::get_if<Swept>(&stage.model.shape))
-                EXPECT_FALSE(trace::fault_of({shape->silhouette, {}}))
-                    << entry.species.id.view() << stage.age;
+        for (const Stage& stage : entry.species.stages) {
+            const auto* shape = std::get_if<Swept>(&stage.model.shape);
+            if (!shape) continue;
+            EXPECT_FALSE(trace::fault_of({shape->silhouette, {}}))
+                << entry.species.id.view() << stage.age;
+        }
 }
 
 TEST(FaultOf, NamesTheControlPointOfACrossing) {

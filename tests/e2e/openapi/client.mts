@@ -138,6 +138,23 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     await both(client.HEAD("/v1/trees/{preset}/{image}.jpg", bark), client.GET("/v1/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
     await both(client.HEAD("/v1/trees/{preset}/{image}.webp", bark), client.GET("/v1/trees/{preset}/{image}.webp", { ...bark, ...binary }));
 
+    const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
+    const { data: uploaded } = await client.POST("/v1/photos", {
+        body: picture as unknown as string,
+        bodySerializer: (file: unknown) => file as ArrayBuffer,
+        headers: { "Content-Type": "image/png" },
+    });
+    const photo: string = uploaded?.photo ?? "";
+    const stored = { params: { path: { photo } } };
+    await both(client.HEAD("/v1/photos/{photo}.jpg", stored), client.GET("/v1/photos/{photo}.jpg", { ...stored, ...binary }));
+    const axis = [[160, 290], [160, 60]];
+    const { data: traced } = await client.POST("/v1/traces", { body: { views: { side: { photo, gesture: { axis } } }, height_m: 0.08 } });
+    const outline = traced?.species.stages?.[traced.stage]?.model;
+    if (outline?.form !== "swept" || !outline.silhouette) throw new Error("the traced species has no outline");
+    const { data: checked } = await client.POST("/v1/outlines/check", { body: { silhouette: outline.silhouette } });
+    if (checked?.simple !== true) throw new Error("the traced outline can not be grown");
+    await client.DELETE("/v1/photos/{photo}.jpg", stored);
+
     const { data: inspected } = await client.POST("/v1/inspect", {
         body: made as unknown as string, // a file: its type is "string" of format "binary"
         bodySerializer: (file: unknown) => file as ArrayBuffer,

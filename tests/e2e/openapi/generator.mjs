@@ -42,6 +42,7 @@ export class Generator {
         if (schema.enum) return dice.pick(schema.enum);
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
         if (name === "species") return this.someSpecies();
+        if (name === "photo") return dice.pick(this.lists.photos);
         if (schema.type === "array") {
             const length = schema.minItems ?? Math.min(schema.maxItems ?? 3, dice.below(4));
             const list = Array.from({ length }, () => this.right(schema.items, "", depth + 1));
@@ -106,6 +107,7 @@ export class Generator {
         if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
         if (name === "type") return dice.pick(lists.types);
+        if (name === "photo") return dice.pick(lists.photos);
         if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
         return undefined;
     }
@@ -115,7 +117,8 @@ export class Generator {
         const { dice } = this;
         const headers = {};
         const query = [];
-        let right = true, wrong = false, target = path;
+        // A photograph may have been deleted by then, and few lines are those of a mushroom.
+        let right = !path.startsWith("/v1/photos/") && path !== "/v1/traces", wrong = false, target = path;
         for (const parameter of operation.parameters ?? []) {
             if (parameter.in !== "path") continue;
             let value = this.pathValue(parameter.name, path) ?? this.right(parameter.schema, parameter.name);
@@ -158,7 +161,7 @@ export class Generator {
                 body = JSON.stringify(value);
                 if (dice.chance(0.02)) [right, wrong, body] = [false, true, body.slice(0, -1)];
             } else {
-                const file = this.lists.file;
+                const file = type.startsWith("image/") ? this.lists.picture : this.lists.file;
                 body = file;
                 if (dice.chance(0.5)) {
                     right = false;
@@ -176,14 +179,19 @@ export class Generator {
     }
 }
 
-/** Fetches the ids that requests are made of: species by family, presets, types of problems, and a file to inspect. */
+/** Fetches the ids that requests are made of: species by family, presets, types of problems, a file to inspect, a picture, and the names of photographs. */
 export async function listsOf(url, document) {
+    const bytesOf = async (path) => new Uint8Array(await (await fetch(url + path)).arrayBuffer());
+    const picture = await bytesOf("/v1/mushrooms/boletus_edulis.png?width=256&height=256&view=front&background=grey&lod=2");
+    const uploaded = async () => (await (await fetch(`${url}/v1/photos`, { method: "POST", headers: { "Content-Type": "image/png" }, body: picture })).json()).photo;
     const list = async (path, key) => (await (await fetch(url + path)).json())[key].map((one) => one.id);
     return {
     families: [await list("/v1/species?family=swept", "species"), await list("/v1/species?family=branched", "species")],
     leaves: await list("/v1/leaves", "leaves"),
     trees: await list("/v1/trees", "trees"),
     types: Object.values(document.components.responses).map((one) => one.content?.["application/problem+json"]?.example.type.split("/").pop()).filter(Boolean),
-    file: new Uint8Array(await (await fetch(`${url}/v1/leaves/maple.glb?lod=3&texture_size=128`)).arrayBuffer()),
+    file: await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128"),
+    picture,
+    photos: await Promise.all(Array.from({ length: 12 }, uploaded)),
     };
 }

@@ -50,7 +50,7 @@ class Judge {
             if (!valid(json)) errors.push(`${this.ajv.errorsText(valid.errors.slice(0, 3))}`);
             if (type === "application/problem+json" && json.status !== status) errors.push(`the problem says ${json.status}`);
         }
-        if (request.right && ![200, 206, 304, 412, 416, 422].includes(status)) errors.push(`${status} although nothing of the request is wrong by the document`);
+        if (request.right && ![200, 201, 206, 304, 412, 416, 422].includes(status)) errors.push(`${status} although nothing of the request is wrong by the document`);
         if (request.wrong && status < 400) errors.push(`${status} although the document forbids it`);
         return errors;
     }
