@@ -81,7 +81,7 @@ std::shared_ptr<const StoredCut> Photos::cut(std::string_view name, std::string_
     return found->cut;
 }
 
-void Photos::remember(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now) {
+void Photos::store_cut(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now) {
     const std::lock_guard lock(mutex_);
     const auto found = entry(name, now);
     if (found != entries_.end()) found->cut = std::move(cut);

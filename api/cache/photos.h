@@ -62,7 +62,7 @@ class Photos {
                                                        std::string_view gesture, Time now);
 
     /// Stores the last cut of a photograph, if that is still there.
-    void remember(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now);
+    void store_cut(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now);
 
     /// Returns the bytes that are stored and their greatest sum.
     [[nodiscard]] std::size_t bytes() const;

@@ -1,12 +1,12 @@
 // The caches of the service, their counters, and the context of a job that uses them.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <semaphore>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -45,7 +45,9 @@ struct Store {
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
-    std::counting_semaphore<> decoders{2};  ///< for photographs
+    /// A photograph is decoded by the holder of one: decoders take up to 100 MB each, so two run at once,
+    /// whatever the number of threads.
+    std::array<std::mutex, 2> decoders;
     std::atomic<std::uint64_t> uploads{0};  ///< their number so far; part of the keys of their jobs
 };
 

@@ -1,6 +1,7 @@
 #include "api/products/photos.h"
 
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "api/http/schemas.h"
@@ -19,22 +20,6 @@ constexpr const char* private_to_client = "private, no-store";
 /// JPEG quality of stored photographs: what is lost is less than the noise of a sensor.
 constexpr int quality = 92;
 
-/// Decoders take up to 100 MB each, so only so many run at once, whatever the number of threads.
-class DecoderSlot {
-  public:
-    /// throws  Cancelled if the job is stopped while it waits
-    DecoderSlot(Store& store, const std::stop_token& stop) : decoders_(store.decoders) {
-        while (!decoders_.try_acquire_for(std::chrono::milliseconds(50)))
-            if (stop.stop_requested()) throw Cancelled();
-    }
-    ~DecoderSlot() { decoders_.release(); }
-    DecoderSlot(const DecoderSlot&) = delete;
-    DecoderSlot& operator=(const DecoderSlot&) = delete;
-
-  private:
-    std::counting_semaphore<>& decoders_;
-};
-
 /// Returns the cost of decoding a file: of a photograph of 12 million pixels 85 ms, of a small file that
 /// declares as many pixels as are allowed a little more than the base.
 Cost cost_of_photo(std::size_t bytes) { return {.base = 30'000 + bytes / 40}; }
@@ -47,13 +32,14 @@ Plan plan_upload(RouteCall& call) {
     if (body.empty())
         return context.responses.problem(call.request, 400,
                                          "the body is empty; send a JPEG, PNG or WebP file");
-    auto run = [file = std::make_shared<const Bytes>(body.begin(), body.end()),
+    const std::uint64_t number = context.store.uploads++;
+    auto run = [number, file = std::make_shared<const Bytes>(body.begin(), body.end()),
                 &store = context.store, &responses = context.responses](
                    const std::stop_token& stop, const Observer& observer, const Parallel&) {
         observer(Step::resolve);
         trace::PhotoFile photo;
         {
-            const DecoderSlot slot(store, stop);
+            const std::unique_lock turn(store.decoders[number % store.decoders.size()]);
             photo = trace::decoded_photo(*file, "");
         }
         if (stop.stop_requested()) throw Cancelled();
@@ -89,8 +75,7 @@ Plan plan_upload(RouteCall& call) {
         return response;
     };
     // Each upload is a piece of work of its own: two clients never share the name of a photograph.
-    return Job{"photo " + std::to_string(context.store.uploads++), cost_of_photo(body.size()),
-               std::move(run)};
+    return Job{"photo " + std::to_string(number), cost_of_photo(body.size()), std::move(run)};
 }
 
 Response gone(const RouteCall& call) {

@@ -123,7 +123,7 @@ std::shared_ptr<const StoredCut> cut_of(Photos& photos, const Picture& picture,
     if (auto known = photos.cut(name, gesture, now)) return known;
     auto cut = std::make_shared<const StoredCut>(
         StoredCut{gesture, mushroom_on(picture, photo.cut_out, spec)});
-    photos.remember(name, cut, now);
+    photos.store_cut(name, cut, now);
     return cut;
 }
 
@@ -184,15 +184,15 @@ Plan plan_outline_check(RouteCall& call) {
     if (!call.errors.empty()) return call.context.responses.problem(call.request, call.errors);
     auto run = [spec](const std::stop_token&, const Observer& observer, const Parallel&) {
         observer(Step::resolve);
-        const std::optional<trace::OutlineFault> fault = trace::fault_of(*spec);
+        const std::optional<trace::OutlineProblem> problem = trace::outline_problem(*spec);
         Value where;
-        if (fault)
-            where.set("curve", fault->curve)
-                .set("index", fault->index)
-                .set("detail", fault->detail);
+        if (problem)
+            where.set("curve", problem->curve)
+                .set("index", problem->index)
+                .set("detail", problem->detail);
         Value body = Value::object();
-        body.set("simple", !fault).set("method", name(ProofMethod::exact));
-        body.set("fault", std::move(where));
+        body.set("simple", !problem).set("method", name(ProofMethod::exact));
+        body.set("problem", std::move(where));
         return private_json(body);
     };
     return Job{"outline " + std::to_string(call.context.store.uploads++), Cost{.base = 300},
@@ -278,10 +278,10 @@ void add_schemas(Value& schemas, const Atlas&) {
              {"species", reference("schemas/species")}}));
     schemas.set(
         "outline_check",
-        objects(
-            {{"simple", typed("boolean")},
-             {"method", text},
-             {"fault", or_null(objects({{"curve", text}, {"index", whole}, {"detail", text}}))}}));
+        objects({{"simple", typed("boolean")},
+                 {"method", text},
+                 {"problem",
+                  or_null(objects({{"curve", text}, {"index", whole}, {"detail", text}}))}}));
 }
 
 void add_bodies(Value& bodies, const Atlas&) {

@@ -29,8 +29,8 @@ struct OutlineSpec {
     bool operator==(const OutlineSpec&) const = default;
 };
 
-/// Where an outline is at fault.
-struct OutlineFault {
+/// What is wrong with an outline, and where.
+struct OutlineProblem {
     std::string curve;      ///< stem, hymenium, cap, or axis
     std::size_t index = 0;  ///< of the control point; 0 for the axis
     std::string detail;     ///< a sentence
@@ -40,6 +40,6 @@ struct OutlineFault {
 /// can be grown.
 ///
 /// pre  silhouette.check() found nothing
-[[nodiscard]] std::optional<OutlineFault> fault_of(const OutlineSpec& spec);
+[[nodiscard]] std::optional<OutlineProblem> outline_problem(const OutlineSpec& spec);
 
 }  // namespace sporeprint::trace

@@ -157,7 +157,7 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
                 quarters[std::min(quarter, PartColours::places - 1)].add(rgb);
                 continue;
             }
-            // Thirds of a stem are told apart on its chord.
+            // The chord of a stem is near enough to its axis to separate its thirds.
             const double share = glm::dot(pixel - foot, up) / std::max(glm::dot(up, up), 1.0);
             if (share > 2.0 / 3.0 && share < 0.95)
                 stem[0].add(rgb);

@@ -68,18 +68,18 @@ TEST(Photos, ThatAreOldestMakeRoom) {
     EXPECT_EQ(photos.find(names[4], now), nullptr);
 }
 
-TEST(Photos, RememberTheirLastCut) {
+TEST(Photos, StoreTheirLastCut) {
     Photos photos(64U << 20U);
     const std::string name = photos.insert(photo(10), start);
     const auto cut = std::make_shared<const StoredCut>(StoredCut{"a", trace::Mask(3, 3, true)});
-    photos.remember(name, cut, start);
+    photos.store_cut(name, cut, start);
     EXPECT_EQ(photos.cut(name, "a", start), cut);
     EXPECT_EQ(photos.cut(name, "b", start), nullptr);
     EXPECT_EQ(photos.cut("another", "a", start), nullptr);
-    photos.remember(name, std::make_shared<const StoredCut>(StoredCut{"b", {}}), start);
+    photos.store_cut(name, std::make_shared<const StoredCut>(StoredCut{"b", {}}), start);
     EXPECT_EQ(photos.cut(name, "a", start), nullptr);
     EXPECT_EQ(photos.cut(name, "b", start + Photos::lifetime), nullptr);
-    photos.remember(name, cut, start + Photos::lifetime);
+    photos.store_cut(name, cut, start + Photos::lifetime);
     EXPECT_EQ(photos.bytes(), 0U);
 }
 

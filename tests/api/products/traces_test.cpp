@@ -150,10 +150,10 @@ TEST_F(TraceRoutes, CheckOutlines) {
     const Response simple = check(R"({"r":0.03,"y":0.09},)");
     ASSERT_EQ(simple.status, 200) << text_of(simple);
     EXPECT_TRUE(json_of(simple).find("simple")->as_bool());
-    EXPECT_TRUE(json_of(simple).find("fault")->is_null());
+    EXPECT_TRUE(json_of(simple).find("problem")->is_null());
     const Value crossing = json_of(check(R"({"r":0.005,"y":0.03},)"));
     EXPECT_FALSE(crossing.find("simple")->as_bool());
-    EXPECT_FALSE(crossing.at_pointer("/fault/curve")->as_string().empty());
+    EXPECT_FALSE(crossing.at_pointer("/problem/curve")->as_string().empty());
     const Response open = ask(post(R"({"silhouette":{"stem":[],"cap":[]}})", "/v1/outlines/check"));
     expect_problem(open, 422);
     EXPECT_TRUE(names(open, "/silhouette"));

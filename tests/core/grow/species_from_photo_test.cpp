@@ -47,7 +47,7 @@ double height_of(const Stage& stage) {
     return height;
 }
 
-TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheIdAskedFor) {
+TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
     trace::TraceSpec spec = spec_of(bolete().gesture);
     spec.id = Text<48>("mine");
     spec.height_m = 0.25;

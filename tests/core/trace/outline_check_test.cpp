@@ -15,43 +15,43 @@ trace::OutlineSpec outline() {
     return {shape.silhouette, shape.axis};
 }
 
-TEST(FaultOf, IsNoneForSpeciesOfTheAtlas) {
+TEST(OutlineProblem, IsNoneForSpeciesOfTheAtlas) {
     for (const AtlasEntry& entry : atlas().entries())
         for (const Stage& stage : entry.species.stages) {
             const auto* shape = std::get_if<Swept>(&stage.model.shape);
             if (!shape) continue;
-            EXPECT_FALSE(trace::fault_of({shape->silhouette, {}}))
+            EXPECT_FALSE(trace::outline_problem({shape->silhouette, {}}))
                 << entry.species.id.view() << stage.age;
         }
 }
 
-TEST(FaultOf, NamesTheControlPointOfACrossing) {
+TEST(OutlineProblem, NamesTheControlPointOfACrossing) {
     trace::OutlineSpec spec = outline();
     std::swap(spec.silhouette.cap[1], spec.silhouette.cap[spec.silhouette.cap.size() - 2]);
-    const auto fault = trace::fault_of(spec);
-    ASSERT_TRUE(fault);
-    EXPECT_EQ(fault->curve, "cap");
-    EXPECT_LT(fault->index, spec.silhouette.cap.size());
-    EXPECT_NE(fault->detail.find("crosses itself"), std::string::npos);
+    const auto problem = trace::outline_problem(spec);
+    ASSERT_TRUE(problem);
+    EXPECT_EQ(problem->curve, "cap");
+    EXPECT_LT(problem->index, spec.silhouette.cap.size());
+    EXPECT_NE(problem->detail.find("crosses itself"), std::string::npos);
 }
 
-TEST(FaultOf, NamesAStemThatReachesTheAxis) {
+TEST(OutlineProblem, NamesAStemThatReachesTheAxis) {
     trace::OutlineSpec spec = outline();
     spec.silhouette.stem[2].r = 0.0;
-    const auto fault = trace::fault_of(spec);
-    ASSERT_TRUE(fault);
-    EXPECT_EQ(fault->curve, "stem");
-    EXPECT_NE(fault->detail.find("axis"), std::string::npos);
+    const auto problem = trace::outline_problem(spec);
+    ASSERT_TRUE(problem);
+    EXPECT_EQ(problem->curve, "stem");
+    EXPECT_NE(problem->detail.find("axis"), std::string::npos);
 }
 
-TEST(FaultOf, NamesAnAxisOnWhichAStemFolds) {
+TEST(OutlineProblem, NamesAnAxisOnWhichAStemFolds) {
     trace::OutlineSpec spec = outline();
     spec.axis = {{0.0, 0.0, 0.0}, {0.1, 0.3, 0.0}, {0.0, 0.32, 0.0}, {-0.2, 0.2, 0.0}};
-    const auto fault = trace::fault_of(spec);
-    ASSERT_TRUE(fault);
-    EXPECT_EQ(fault->curve, "axis");
+    const auto problem = trace::outline_problem(spec);
+    ASSERT_TRUE(problem);
+    EXPECT_EQ(problem->curve, "axis");
     spec.axis = {{0.0, 0.0, 0.0}, {0.02, 0.5, 0.0}, {0.05, 1.0, 0.0}};
-    EXPECT_FALSE(trace::fault_of(spec));
+    EXPECT_FALSE(trace::outline_problem(spec));
 }
 
 }  // namespace
