@@ -82,14 +82,22 @@ trace::Traced scaled(trace::Traced traced, double factor) {
     return traced;
 }
 
+/// Returns true if a species has a stem and a cap in the field's sense, as those have that are traced.
+bool is_capped(const Species& species) {
+    const GrowthForm form = species.facts.form;
+    return form == GrowthForm::agaric || form == GrowthForm::bolete ||
+           form == GrowthForm::chanterelle || form == GrowthForm::tooth;
+}
+
 /// Returns the species that lends what the photograph does not show, and the age of the mushroom as it would
 /// be one of these.
 NearSpecies chosen_template(const trace::TraceSpec& spec, const Atlas& atlas,
                             const std::vector<NearSpecies>& sorted) {
     const bool is_any = spec.template_id.view() == "auto";
     const auto found = std::find_if(sorted.begin(), sorted.end(), [&](const NearSpecies& one) {
-        return is_any ? trace::can_be_template(atlas.find(one.id)->species)
-                      : one.id == spec.template_id.view();
+        if (!is_any) return one.id == spec.template_id.view();
+        const Species& species = atlas.find(one.id)->species;
+        return is_capped(species) && trace::can_be_template(species);
     });
     if (found == sorted.end())
         throw InvalidInput("/template",

@@ -4,21 +4,67 @@
 
 namespace sporeprint::trace {
 
-PhotoFile decoded_photo(std::span<const std::uint8_t> file, const std::string& path) {
-    const LayeredPicture from = decoded_layers(file, decoded_side, path);
-    constexpr double least = 0.02, most = 0.98;
-    PhotoFile found{reduced(from.picture, decoded_side), std::nullopt};
-    std::size_t transparent = 0;
-    for (const std::uint8_t alpha : from.alpha) transparent += alpha < 128 ? 1 : 0;
+namespace {
+
+/// Shares of a picture that are transparent if it is cut out.
+constexpr double least_transparent = 0.02, most_transparent = 0.98;
+
+constexpr std::uint8_t half_opaque = 128;
+
+bool is_cut_out(const Bytes& alpha) {
+    const auto transparent = std::count_if(alpha.begin(), alpha.end(),
+                                           [](std::uint8_t value) { return value < half_opaque; });
     const double share = static_cast<double>(transparent) /
-                         static_cast<double>(std::max<std::size_t>(from.alpha.size(), 1));
-    if (share < least || share > most) return found;
+                         static_cast<double>(std::max<std::size_t>(alpha.size(), 1));
+    return share >= least_transparent && share <= most_transparent;
+}
+
+bool reaches_border(const LayeredPicture& of) {
+    const auto width = static_cast<std::size_t>(of.picture.width),
+               height = static_cast<std::size_t>(of.picture.height);
+    const auto is_opaque = [&](std::size_t x, std::size_t y) {
+        return of.alpha[y * width + x] >= half_opaque;
+    };
+    for (std::size_t x = 0; x < width; ++x)
+        if (is_opaque(x, 0) || is_opaque(x, height - 1)) return true;
+    for (std::size_t y = 0; y < height; ++y)
+        if (is_opaque(0, y) || is_opaque(width - 1, y)) return true;
+    return false;
+}
+
+/// Returns a picture with a border of transparent white paper round it.
+LayeredPicture bordered(const LayeredPicture& of, int border) {
+    LayeredPicture found;
+    found.picture.width = of.picture.width + 2 * border;
+    found.picture.height = of.picture.height + 2 * border;
+    const auto width = static_cast<std::size_t>(found.picture.width),
+               height = static_cast<std::size_t>(found.picture.height),
+               columns = static_cast<std::size_t>(of.picture.width),
+               edge = static_cast<std::size_t>(border);
+    found.picture.rgb.assign(3 * width * height, 255);
+    found.alpha.assign(width * height, 0);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(of.picture.height); ++y) {
+        const std::size_t from = y * columns, to = (y + edge) * width + edge;
+        std::copy_n(&of.picture.rgb[3 * from], 3 * columns, &found.picture.rgb[3 * to]);
+        std::copy_n(&of.alpha[from], columns, &found.alpha[to]);
+    }
+    return found;
+}
+
+}  // namespace
+
+PhotoFile decoded_photo(std::span<const std::uint8_t> file, const std::string& path) {
+    LayeredPicture from = decoded_layers(file, decoded_side, path);
+    if (!is_cut_out(from.alpha)) return {reduced(from.picture, decoded_side), std::nullopt};
+    if (reaches_border(from))
+        from = bordered(from, 2 + std::max(from.picture.width, from.picture.height) / 50);
+    PhotoFile found{reduced(from.picture, decoded_side), std::nullopt};
     Picture grey{from.picture.width, from.picture.height, Bytes(from.picture.rgb.size())};
     for (std::size_t i = 0; i < grey.rgb.size(); ++i) grey.rgb[i] = from.alpha[i / 3];
     const Picture alpha = reduced(grey, decoded_side);
     found.cut_out = Mask(alpha.width, alpha.height);
     for (std::size_t i = 0; i < found.cut_out->inside.size(); ++i)
-        found.cut_out->inside[i] = alpha.rgb[3 * i] >= 128 ? 1 : 0;
+        found.cut_out->inside[i] = alpha.rgb[3 * i] >= half_opaque ? 1 : 0;
     return found;
 }
 

@@ -22,7 +22,8 @@ struct PhotoFile {
     std::optional<Mask> cut_out;
 };
 
-/// Decodes a JPEG, PNG or WebP file within the bounds of core/surface/photo_codecs.h.
+/// Decodes a JPEG, PNG or WebP file within the bounds of core/surface/photo_codecs.h. A picture that is cut out
+/// and reaches the border of its file is whole, so it gets a border of white paper, 2 % of its longest side.
 ///
 /// path    reported in InvalidInput, e.g. "/photo"
 /// throws  InvalidInput, see decoded_layers()

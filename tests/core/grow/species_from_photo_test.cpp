@@ -75,6 +75,24 @@ TEST(SpeciesFromPhoto, WithoutAHeightHasThatOfItsTemplate) {
     EXPECT_NE(made.model.surface.cap.ramp, lent.model.surface.cap.ramp);
 }
 
+TEST(SpeciesFromPhoto, IsLentByACappedSpeciesWhateverItIsNearest) {
+    // A red disc on a thin stem is most like a cage fungus.
+    trace::Mask mask(300, 400);
+    for (int y = 0; y < 400; ++y)
+        for (int x = 0; x < 300; ++x) {
+            const double u = (x - 149.5) / 110.0, v = (y - 130.0) / 100.0;
+            const bool is_cap = u * u + v * v <= 1.0 && y < 180;
+            const bool is_stem = x >= 130 && x < 170 && y >= 130 && y < 380;
+            mask.inside[mask.index(x, y)] = is_cap || is_stem ? 1 : 0;
+        }
+    Photograph photo{{300, 400, {}}, mask, {}};
+    for (std::size_t i = 0; i < mask.inside.size(); ++i)
+        photo.picture.rgb.insert(photo.picture.rgb.end(), {220, 40, 40});
+    const SpeciesFromPhoto found = found_in(photo, {}, mask);
+    const GrowthForm form = atlas().find(found.template_id)->species.facts.form;
+    EXPECT_TRUE(form == GrowthForm::agaric || form == GrowthForm::bolete) << found.template_id;
+}
+
 TEST(SpeciesFromPhoto, OfAPictureThatIsCutOutNeedsNoGesture) {
     trace::Mask truth = bolete().truth;
     // A speck beside the mushroom is none of it.
