@@ -1,7 +1,7 @@
 #include "core/trace/photo_colours.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -18,39 +18,115 @@ constexpr std::size_t least_pixels = 24;
 /// Pixels so near to the border of the mask have some of the background.
 constexpr int border = 2;
 
+/// Shares of red and of green in a colour, in steps; shade hardly changes them.
+using Hue = std::array<int, 2>;
+
+/// A quarter of a cap has the commonest hue of the cap or one so near to it, in steps, if enough of it has.
+constexpr int hue_steps = 32, near_hue = 3;
+constexpr double least_of_hue = 0.2;
+
+/// Pixels darker than this share of the light ones are outlines and deep shade.
+constexpr double least_light = 0.3;
+
 /// The pixels of one place.
 class Sample {
   public:
-    void add(const std::uint8_t* rgb) { pixels_.push_back({rgb[0], rgb[1], rgb[2]}); }
+    using Pixel = std::array<std::uint8_t, 3>;
 
-    /// Returns the median of the lighter 60 % in each channel as L*a*b*; none of too few pixels.
-    [[nodiscard]] std::optional<glm::dvec3> colour() {
+    void add(const std::uint8_t* rgb) { pixels_.push_back({rgb[0], rgb[1], rgb[2]}); }
+    void add(const Sample& other) {
+        pixels_.insert(pixels_.end(), other.pixels_.begin(), other.pixels_.end());
+    }
+
+    /// Returns the hue that most pixels have or nearly have.
+    [[nodiscard]] Hue commonest_hue() const { return commonest_of(pixels_); }
+
+    /// Returns the colour that most pixels have, as L*a*b*; none of too few pixels.
+    ///
+    /// near  if enough pixels have about this hue, the others do not count
+    [[nodiscard]] std::optional<glm::dvec3> colour(const Hue& near) const {
         if (pixels_.size() < least_pixels) return std::nullopt;
-        const std::size_t darker = pixels_.size() * 2 / 5;
-        const auto from = pixels_.begin() + static_cast<std::ptrdiff_t>(darker);
-        std::nth_element(pixels_.begin(), from, pixels_.end(),
-                         [](const Pixel& a, const Pixel& b) { return luma(a) < luma(b); });
-        const auto middle = from + (pixels_.end() - from) / 2;
+        std::vector<Pixel> alike = within(pixels_, near, near_hue);
+        if (static_cast<double>(alike.size()) < least_of_hue * static_cast<double>(pixels_.size()))
+            alike = pixels_;
+        alike = within(alike, commonest_of(alike), 1);
+        const std::size_t darker = alike.size() * 2 / 5;
+        const auto from = alike.begin() + static_cast<std::ptrdiff_t>(darker);
+        std::nth_element(alike.begin(), from, alike.end(), is_darker);
+        const auto middle = from + (alike.end() - from) / 2;
         glm::dvec3 median(0.0);
         for (int c = 0; c < 3; ++c) {
             const auto channel = static_cast<std::size_t>(c);
-            std::nth_element(
-                from, middle, pixels_.end(),
-                [channel](const Pixel& a, const Pixel& b) { return a[channel] < b[channel]; });
+            std::nth_element(from, middle, alike.end(), [channel](const Pixel& a, const Pixel& b) {
+                return a[channel] < b[channel];
+            });
             median[c] = (*middle)[channel];
         }
         return lab_of(median);
     }
 
   private:
-    using Pixel = std::array<std::uint8_t, 3>;
     std::vector<Pixel> pixels_;
+
+    static Hue hue_of(const Pixel& pixel) {
+        // Black has no hue; a little of each channel makes it grey.
+        const int sum = pixel[0] + pixel[1] + pixel[2] + 3;
+        return {(pixel[0] + 1) * (hue_steps - 1) / sum, (pixel[1] + 1) * (hue_steps - 1) / sum};
+    }
+
+    static std::vector<Pixel> within(const std::vector<Pixel>& pixels, const Hue& hue, int steps) {
+        std::vector<Pixel> found;
+        found.reserve(pixels.size());
+        for (const Pixel& pixel : pixels) {
+            const Hue own = hue_of(pixel);
+            if (std::abs(own[0] - hue[0]) <= steps && std::abs(own[1] - hue[1]) <= steps)
+                found.push_back(pixel);
+        }
+        return found;
+    }
+
+    /// Returns the middle of the three by three hues that together most of the lit pixels have.
+    static Hue commonest_of(std::vector<Pixel> pixels) {
+        if (pixels.empty()) return {hue_steps / 3, hue_steps / 3};
+        const auto light = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() * 9 / 10);
+        const auto value = [](const Pixel& pixel) {
+            return *std::max_element(pixel.begin(), pixel.end());
+        };
+        std::nth_element(pixels.begin(), light, pixels.end(),
+                         [&](const Pixel& a, const Pixel& b) { return value(a) < value(b); });
+        // By the greatest channel: pure red is no shade of white.
+        const double least = least_light * value(*light);
+        std::array<std::array<int, hue_steps + 2>, hue_steps + 2> counts{};
+        for (const Pixel& pixel : pixels) {
+            if (value(pixel) < least) continue;
+            const Hue hue = hue_of(pixel);
+            ++counts[static_cast<std::size_t>(hue[0] + 1)][static_cast<std::size_t>(hue[1] + 1)];
+        }
+        Hue best{};
+        // Of equal sums the one with most in its middle.
+        std::array<int, 2> most{};
+        for (int red = 0; red < hue_steps; ++red)
+            for (int green = 0; green < hue_steps; ++green) {
+                int sum = 0;
+                for (int i = red; i <= red + 2; ++i)
+                    for (int j = green; j <= green + 2; ++j)
+                        sum += counts[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+                const std::array<int, 2> here = {
+                    sum,
+                    counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)]};
+                if (here <= most) continue;
+                most = here;
+                best = {red, green};
+            }
+        return best;
+    }
 
     /// Shares of the channels of ITU-R BT.709 in ten thousandths; pixels of one luma are in order of
     /// their channels, so that the same set is chosen everywhere.
     static std::array<int, 4> luma(const Pixel& pixel) {
         return {2126 * pixel[0] + 7152 * pixel[1] + 722 * pixel[2], pixel[0], pixel[1], pixel[2]};
     }
+    static bool is_darker(const Pixel& a, const Pixel& b) { return luma(a) < luma(b); }
 };
 
 /// Returns the place on a line that is nearest to a point.
@@ -164,14 +240,18 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
             else if (share > 0.03 && share < 1.0 / 3.0)
                 stem[1].add(rgb);
         }
+    Sample whole;
+    for (const Sample& quarter : quarters) whole.add(quarter);
+    const Hue of_cap = whole.commonest_hue();
     PartColours found;
     found.cap.emplace();
     for (std::size_t k = 0; k < PartColours::places && found.cap; ++k)
-        if (const std::optional<glm::dvec3> colour = quarters[k].colour())
+        if (const std::optional<glm::dvec3> colour = quarters[k].colour(of_cap))
             (*found.cap)[k] = *colour;
         else
             found.cap.reset();
-    const std::optional<glm::dvec3> top = stem[0].colour(), base = stem[1].colour();
+    const auto of_stem = [](const Sample& third) { return third.colour(third.commonest_hue()); };
+    const std::optional<glm::dvec3> top = of_stem(stem[0]), base = of_stem(stem[1]);
     if (top && base) found.stem = {*top, *base};
     return found;
 }
@@ -191,7 +271,6 @@ void give_colours(Species& species, std::size_t stage, const PartColours& colour
                 mean += ((*colours.cap)[k] - on_ramp(before.cap.ramp, share)) /
                         static_cast<double>(PartColours::places);
             }
-            if (i == stage) ramp.assign(PartColours::places, Colour{});
             for (std::size_t k = 0; k < ramp.size(); ++k) {
                 const double share =
                     ramp.size() > 1 ? static_cast<double>(k) / static_cast<double>(ramp.size() - 1)

@@ -23,8 +23,8 @@ struct PartColours {
     std::optional<std::array<glm::dvec3, 2>> stem;
 };
 
-/// Returns the colours of a mushroom as it is photographed: in each place the median of the lighter 60 % of
-/// the pixels, so that shade and soil do not count.
+/// Returns the colours of a mushroom as it is photographed: in each place the commonest hue, so that warts and
+/// spots do not count, and of its pixels the median of the lighter 60 %, so that shade does not.
 ///
 /// picture, mask  of one size
 /// traced         in pixels of the mask

@@ -6,6 +6,8 @@
 #include <string>
 #include <variant>
 
+#include "core/params/reader.h"
+#include "core/params/value.h"
 #include "tests/support/atlas.h"
 #include "tests/support/photographs.h"
 #include "tests/support/refusals.h"
@@ -60,6 +62,16 @@ TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
     // In pixels of the photograph: from the foot to the apex.
     EXPECT_NEAR(found.traced.left.front().y, bolete().gesture.axis.front().y, 40.0);
     EXPECT_LT(found.traced.left.back().y, found.traced.left.front().y);
+}
+
+TEST(SpeciesFromPhoto, IsOneThatAnAtlasCanHave) {
+    for (const char* lender : {"boletus_edulis", "lactarius_deliciosus", "hydnum_repandum"}) {
+        trace::TraceSpec spec = spec_of(bolete().gesture);
+        spec.template_id = Text<48>(std::string_view(lender));
+        const SpeciesFromPhoto found = found_in(bolete(), spec, std::nullopt);
+        const Atlas loaded({.species = {dump(write(found.whole.species))}});
+        EXPECT_EQ(loaded.find("my_mushroom")->species, found.whole.species) << lender;
+    }
 }
 
 TEST(SpeciesFromPhoto, WithoutAHeightHasThatOfItsTemplate) {

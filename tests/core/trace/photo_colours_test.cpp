@@ -73,6 +73,21 @@ TEST(PartColours, OfShadeDoNotCount) {
     EXPECT_LT(apart((*found.cap)[3], {240.0, 200.0, 60.0}), 1.0);
 }
 
+TEST(PartColours, OfSpotsDoNotCount) {
+    Painted painted;
+    // White spots cover a quarter of the picture.
+    for (int y = 0; y < painted.drawn.side; ++y)
+        for (int x = 0; x < painted.drawn.side; ++x)
+            if (x % 30 < 15 && y % 30 < 15)
+                for (std::size_t c = 0; c < 3; ++c)
+                    painted.picture.rgb[3 * painted.mask.index(x, y) + c] = 250;
+    const trace::PartColours found =
+        trace::part_colours(painted.picture, painted.mask, painted.traced);
+    ASSERT_TRUE(found.cap);
+    EXPECT_LT(apart((*found.cap)[0], {200.0, 40.0, 30.0}), 1.0);
+    EXPECT_LT(apart((*found.cap)[3], {240.0, 200.0, 60.0}), 1.0);
+}
+
 TEST(GiveColours, PaintsThePhotographedStageAndMovesTheOthers) {
     const Painted painted;
     const trace::PartColours colours =
@@ -81,7 +96,8 @@ TEST(GiveColours, PaintsThePhotographedStageAndMovesTheOthers) {
     Species species = own;
     trace::give_colours(species, 2, colours);
     const std::vector<Colour>& ramp = species.stages[2].model.surface.cap.ramp;
-    ASSERT_EQ(ramp.size(), trace::PartColours::places);
+    // Stages blend colour by colour, so each has as many as before.
+    ASSERT_EQ(ramp.size(), own.stages[2].model.surface.cap.ramp.size());
     EXPECT_EQ(ramp.front(), (Colour{200, 40, 30}));
     EXPECT_EQ(ramp.back(), (Colour{240, 200, 60}));
     EXPECT_EQ(species.stages[2].model.surface.stem.top, (Colour{200, 200, 200}));
