@@ -8,6 +8,7 @@
 #include "core/trace/cut.h"
 #include "core/trace/likeness.h"
 #include "core/trace/photo_colours.h"
+#include "core/trace/photo_images.h"
 
 namespace sporeprint {
 
@@ -106,6 +107,23 @@ NearSpecies chosen_template(const trace::TraceSpec& spec, const Atlas& atlas,
     return *found;
 }
 
+/// Gives the photographed stage images, and a warning for each part that has none.
+void give_images(SpeciesFromPhoto& found, const trace::PhotoImages& images) {
+    constexpr int quality = 88;
+    const auto give = [&](Upload& image, const std::optional<Picture>& picture, const char* part) {
+        if (picture)
+            image = uploaded(
+                jpeg(picture->rgb, picture->width, picture->height, quality, Chroma::full));
+        else
+            found.warnings.push_back(
+                {"images", std::string("The photograph shows too little of the ") + part +
+                               ", which is painted instead."});
+    };
+    Surface& surface = found.whole.species.stages[found.whole.stage].model.surface;
+    give(surface.cap.image, images.cap, "cap");
+    give(surface.stem.image, images.stem, "stem");
+}
+
 std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
     std::vector<TraceWarning> warnings;
     const auto percent = [](double share) {
@@ -167,6 +185,7 @@ SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mas
         found.whole.species.id = spec.id;
         found.traced = scaled(traced, 1.0 / factor);
         found.warnings = warnings_of(found);
+        if (spec.images) give_images(found, trace::photo_images(large, mask, traced, height));
         return found;
     });
 }

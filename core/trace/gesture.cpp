@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/trace/contour.h"
 
@@ -25,23 +24,28 @@ Gesture Gesture::scaled(double factor) const {
 }
 
 Stroke upright_line(const Mask& mask) {
-    const auto middle_of = [&mask](int y) -> std::optional<glm::dvec2> {
-        int count = 0;
-        double sum = 0.0;
+    int top = mask.height, bottom = -1;
+    for (int y = 0; y < mask.height; ++y)
         for (int x = 0; x < mask.width; ++x)
             if (mask.at(x, y)) {
-                sum += x + 0.5;
-                ++count;
+                top = std::min(top, y);
+                bottom = y;
             }
-        if (count == 0) return std::nullopt;
-        return glm::dvec2(sum / count, y + 0.5);
+    if (bottom < 0) return {};
+    const auto middle_of = [&mask](int from, int to) {
+        int count = 0;
+        double sum = 0.0;
+        for (int y = from; y <= to; ++y)
+            for (int x = 0; x < mask.width; ++x)
+                if (mask.at(x, y)) {
+                    sum += x + 0.5;
+                    ++count;
+                }
+        return sum / std::max(count, 1);
     };
-    Stroke line;
-    for (int y = mask.height - 1; y >= 0 && line.empty(); --y)
-        if (const std::optional<glm::dvec2> foot = middle_of(y)) line.push_back(*foot);
-    for (int y = 0; y < mask.height && line.size() == 1; ++y)
-        if (const std::optional<glm::dvec2> top = middle_of(y)) line.push_back(*top);
-    return line;
+    const int height = bottom - top + 1;
+    return {{middle_of(bottom - height / 20, bottom), bottom + 0.5},
+            {middle_of(top, top + height / 4), top + 0.5}};
 }
 
 Mask drawn(const std::vector<Stroke>& strokes, int columns, int rows, double width) {

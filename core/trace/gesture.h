@@ -28,9 +28,8 @@ struct Gesture {
     [[nodiscard]] Gesture scaled(double factor) const;
 };
 
-/// Returns the line from the middle of the lowest row of a mask to the middle of its highest one.
-///
-/// mask  at least one pixel
+/// Returns the line from the foot of an upright mask to its top: the middle of its lowest twentieth on the lowest
+/// row, and that of its upper quarter on the highest one; none of an empty mask.
 [[nodiscard]] Stroke upright_line(const Mask& mask);
 
 /// Returns the pixels within half a width of strokes; what lies beyond the border is left out.

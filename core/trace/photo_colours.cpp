@@ -1,11 +1,11 @@
 #include "core/trace/photo_colours.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <vector>
 
 #include "core/trace/contour.h"
+#include "core/trace/hue.h"
 #include "core/trace/lab.h"
 
 namespace sporeprint::trace {
@@ -18,28 +18,20 @@ constexpr std::size_t least_pixels = 24;
 /// Pixels so near to the border of the mask have some of the background.
 constexpr int border = 2;
 
-/// Shares of red and of green in a colour, in steps; shade hardly changes them.
-using Hue = std::array<int, 2>;
-
 /// A quarter of a cap has the commonest hue of the cap or one so near to it, in steps, if enough of it has.
-constexpr int hue_steps = 32, near_hue = 3;
+constexpr int near_hue = 3;
 constexpr double least_of_hue = 0.2;
-
-/// Pixels darker than this share of the light ones are outlines and deep shade.
-constexpr double least_light = 0.3;
 
 /// The pixels of one place.
 class Sample {
   public:
-    using Pixel = std::array<std::uint8_t, 3>;
-
     void add(const std::uint8_t* rgb) { pixels_.push_back({rgb[0], rgb[1], rgb[2]}); }
     void add(const Sample& other) {
         pixels_.insert(pixels_.end(), other.pixels_.begin(), other.pixels_.end());
     }
 
     /// Returns the hue that most pixels have or nearly have.
-    [[nodiscard]] Hue commonest_hue() const { return commonest_of(pixels_); }
+    [[nodiscard]] Hue commonest_hue() const { return trace::commonest_hue(pixels_); }
 
     /// Returns the colour that most pixels have, as L*a*b*; none of too few pixels.
     ///
@@ -49,7 +41,7 @@ class Sample {
         std::vector<Pixel> alike = within(pixels_, near, near_hue);
         if (static_cast<double>(alike.size()) < least_of_hue * static_cast<double>(pixels_.size()))
             alike = pixels_;
-        alike = within(alike, commonest_of(alike), 1);
+        alike = within(alike, trace::commonest_hue(alike), 1);
         const std::size_t darker = alike.size() * 2 / 5;
         const auto from = alike.begin() + static_cast<std::ptrdiff_t>(darker);
         std::nth_element(alike.begin(), from, alike.end(), is_darker);
@@ -68,57 +60,12 @@ class Sample {
   private:
     std::vector<Pixel> pixels_;
 
-    static Hue hue_of(const Pixel& pixel) {
-        // Black has no hue; a little of each channel makes it grey.
-        const int sum = pixel[0] + pixel[1] + pixel[2] + 3;
-        return {(pixel[0] + 1) * (hue_steps - 1) / sum, (pixel[1] + 1) * (hue_steps - 1) / sum};
-    }
-
     static std::vector<Pixel> within(const std::vector<Pixel>& pixels, const Hue& hue, int steps) {
         std::vector<Pixel> found;
         found.reserve(pixels.size());
-        for (const Pixel& pixel : pixels) {
-            const Hue own = hue_of(pixel);
-            if (std::abs(own[0] - hue[0]) <= steps && std::abs(own[1] - hue[1]) <= steps)
-                found.push_back(pixel);
-        }
+        for (const Pixel& pixel : pixels)
+            if (are_near(hue_of(pixel), hue, steps)) found.push_back(pixel);
         return found;
-    }
-
-    /// Returns the middle of the three by three hues that together most of the lit pixels have.
-    static Hue commonest_of(std::vector<Pixel> pixels) {
-        if (pixels.empty()) return {hue_steps / 3, hue_steps / 3};
-        const auto light = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.size() * 9 / 10);
-        const auto value = [](const Pixel& pixel) {
-            return *std::max_element(pixel.begin(), pixel.end());
-        };
-        std::nth_element(pixels.begin(), light, pixels.end(),
-                         [&](const Pixel& a, const Pixel& b) { return value(a) < value(b); });
-        // By the greatest channel: pure red is no shade of white.
-        const double least = least_light * value(*light);
-        std::array<std::array<int, hue_steps + 2>, hue_steps + 2> counts{};
-        for (const Pixel& pixel : pixels) {
-            if (value(pixel) < least) continue;
-            const Hue hue = hue_of(pixel);
-            ++counts[static_cast<std::size_t>(hue[0] + 1)][static_cast<std::size_t>(hue[1] + 1)];
-        }
-        Hue best{};
-        // Of equal sums the one with most in its middle.
-        std::array<int, 2> most{};
-        for (int red = 0; red < hue_steps; ++red)
-            for (int green = 0; green < hue_steps; ++green) {
-                int sum = 0;
-                for (int i = red; i <= red + 2; ++i)
-                    for (int j = green; j <= green + 2; ++j)
-                        sum += counts[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-                const std::array<int, 2> here = {
-                    sum,
-                    counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)]};
-                if (here <= most) continue;
-                most = here;
-                best = {red, green};
-            }
-        return best;
     }
 
     /// Shares of the channels of ITU-R BT.709 in ten thousandths; pixels of one luma are in order of

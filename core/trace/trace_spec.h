@@ -99,6 +99,7 @@ struct TraceSpec {
     Text<48> template_id{"auto"};
     Text<48> id{"my_mushroom"};
     std::optional<double> height_m;
+    bool images = false;
 
     static constexpr void fields(auto visit) {
         using T = TraceSpec;
@@ -116,6 +117,10 @@ struct TraceSpec {
                                  .max = 1.0,
                                  .doc = "Height of the photographed mushroom; without it that of "
                                         "the template at its age."});
+        visit(&T::images,
+              Info{.name = "images",
+                   .doc = "Paint cap and stem with images from the photograph: laid flat, without "
+                          "its shade, closed round the mushroom."});
     }
     /// Reports a missing photograph, and ids that no species can have.
     void check(const std::string& path, std::vector<Problem>& problems) const {

@@ -74,6 +74,21 @@ TEST(SpeciesFromPhoto, IsOneThatAnAtlasCanHave) {
     }
 }
 
+TEST(SpeciesFromPhoto, HasImagesOnRequest) {
+    trace::TraceSpec spec = spec_of(bolete().gesture);
+    const SpeciesFromPhoto without = found_in(bolete(), spec, std::nullopt);
+    spec.images = true;
+    const SpeciesFromPhoto found = found_in(bolete(), spec, std::nullopt);
+    const auto surface = [](const SpeciesFromPhoto& of) {
+        return of.whole.species.stages[of.whole.stage].model.surface;
+    };
+    EXPECT_TRUE(surface(without).cap.image.empty());
+    EXPECT_FALSE(surface(found).stem.image.empty());
+    EXPECT_EQ(decoded_picture(surface(found).stem.image.bytes, "").width, 512);
+    const Atlas loaded({.species = {dump(write(found.whole.species))}});
+    EXPECT_EQ(loaded.find("my_mushroom")->species, found.whole.species);
+}
+
 TEST(SpeciesFromPhoto, WithoutAHeightHasThatOfItsTemplate) {
     trace::TraceSpec spec = spec_of(bolete().gesture);
     spec.template_id = Text<48>("russula_emetica");

@@ -23,15 +23,22 @@ TEST(Drawn, LeavesOutWhatIsBeyondTheBorder) {
     EXPECT_EQ(trace::drawn({{}}, 20, 20, 2.0).area(), 0U);
 }
 
-TEST(UprightLine, IsFromTheLowestRowToTheHighest) {
-    trace::Mask mask(20, 30);
-    for (int y = 5; y < 25; ++y)
-        for (int x = 4; x < 10; ++x) mask.inside[mask.index(x, y)] = 1;
-    mask.inside[mask.index(12, 4)] = 1;
+TEST(UprightLine, IsFromTheFootToTheMiddleOfTheCap) {
+    trace::Mask mask(60, 100);
+    const auto fill = [&](int left, int top, int right, int bottom) {
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) mask.inside[mask.index(x, y)] = 1;
+    };
+    fill(20, 30, 30, 90);
+    fill(10, 10, 50, 30);
+    // The highest place is at the edge of a tilted cap.
+    mask.inside[mask.index(49, 9)] = 1;
     const trace::Stroke line = trace::upright_line(mask);
     ASSERT_EQ(line.size(), 2U);
-    EXPECT_EQ(line[0], glm::dvec2(7.0, 24.5));
-    EXPECT_EQ(line[1], glm::dvec2(12.5, 4.5));
+    EXPECT_EQ(line[0], glm::dvec2(25.0, 89.5));
+    EXPECT_NEAR(line[1].x, 30.0, 0.1);
+    EXPECT_EQ(line[1].y, 9.5);
+    EXPECT_TRUE(trace::upright_line(trace::Mask(3, 3)).empty());
 }
 
 TEST(Gesture, IsScaledWithThePhotograph) {

@@ -1,0 +1,447 @@
+#include "core/trace/photo_images.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/math/elementary.h"
+#include "core/silhouette/outline.h"
+#include "core/trace/axis.h"
+#include "core/trace/hue.h"
+
+namespace sporeprint::trace {
+
+namespace {
+
+constexpr double quarter = pi / 4.0;
+
+/// Beyond this angle from the front a skin is too foreshortened.
+constexpr double widest = 62.0 * pi / 180.0;
+
+constexpr int image_side = 512;
+
+/// A part of which less is seen has no image.
+constexpr double least_seen = 0.4;
+
+/// A hue is quite another one by more steps: a brown cap may have a cream margin.
+constexpr int other_hue = 4;
+
+double luminance(const glm::dvec3& light) {
+    return 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
+}
+
+// --- From the photograph ----------------------------------------------------------------
+
+/// Reads linear light between the pixels of a photograph.
+class Light {
+  public:
+    explicit Light(const Picture& picture) : picture_(picture) {
+        for (std::size_t i = 0; i < linear_.size(); ++i)
+            linear_[i] = srgb_to_linear(static_cast<double>(i) / 255.0);
+    }
+
+    /// Returns the pixel that contains a place, which is on the photograph.
+    [[nodiscard]] Pixel pixel(const glm::dvec2& place) const {
+        const auto i = first_of(static_cast<int>(place.x), static_cast<int>(place.y));
+        return {picture_.rgb[i], picture_.rgb[i + 1], picture_.rgb[i + 2]};
+    }
+
+    [[nodiscard]] glm::dvec3 at(const glm::dvec2& place) const {
+        const double x = std::clamp(place.x - 0.5, 0.0, picture_.width - 1.001),
+                     y = std::clamp(place.y - 0.5, 0.0, picture_.height - 1.001);
+        const int left = static_cast<int>(x), top = static_cast<int>(y);
+        const double right = x - left, down = y - top;
+        return (1.0 - down) * ((1.0 - right) * texel(left, top) + right * texel(left + 1, top)) +
+               down * ((1.0 - right) * texel(left, top + 1) + right * texel(left + 1, top + 1));
+    }
+
+  private:
+    const Picture& picture_;
+    std::array<double, 256> linear_{};
+
+    [[nodiscard]] std::size_t first_of(int x, int y) const {
+        return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
+                    static_cast<std::size_t>(x));
+    }
+    [[nodiscard]] glm::dvec3 texel(int x, int y) const {
+        const std::size_t i = first_of(x, y);
+        return {linear_[picture_.rgb[i]], linear_[picture_.rgb[i + 1]],
+                linear_[picture_.rgb[i + 2]]};
+    }
+};
+
+/// Returns true well inside a mask: pixels at its border have some of the background.
+bool is_inside(const Mask& mask, const glm::dvec2& place) {
+    constexpr int border = 2;
+    const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y));
+    return mask.at(x, y) && mask.at(x - border, y) && mask.at(x + border, y) &&
+           mask.at(x, y - border) && mask.at(x, y + border);
+}
+
+/// Hides what follows a long gap on the way from the first row to the last, and a little before it: behind a
+/// margin that stands up the other side is seen, and its shade.
+void hide_beyond_gaps(SkinPatch& patch) {
+    const std::size_t longest = patch.rows / 8, shade = patch.rows / 25;
+    for (std::size_t column = 0; column < patch.columns; ++column) {
+        std::size_t gap = 0;
+        bool has_begun = false;  // an apex seen from the side is hidden at first
+        for (std::size_t row = 0; row < patch.rows; ++row) {
+            const bool is_seen = patch.is_seen[row * patch.columns + column];
+            has_begun = has_begun || is_seen;
+            gap = is_seen ? 0 : gap + 1;
+            if (!has_begun || gap <= longest) continue;
+            const std::size_t from = row + 1 - gap;
+            for (std::size_t i = from > shade ? from - shade : 0; i < patch.rows; ++i)
+                patch.is_seen[i * patch.columns + column] = false;
+            break;
+        }
+    }
+}
+
+/// Returns a part of the skin, without what the photograph does not show of it.
+///
+/// surely  shares up to it are the part itself, whose hue is theirs
+/// place   maps a share of the part and the sine of the angle from the front to the photograph
+template <class Place>
+SkinPatch patch_of(const Picture& picture, const Mask& mask, std::size_t rows, double surely,
+                   Place place) {
+    const Light light(picture);
+    SkinPatch patch;
+    patch.rows = rows;
+    patch.columns = rows / 2;
+    patch.reach = widest;
+    const std::size_t texels = patch.rows * patch.columns;
+    patch.light.reserve(texels);
+    patch.is_seen.reserve(texels);
+    std::vector<Pixel> pixels, seen;
+    pixels.reserve(texels);
+    seen.reserve(texels);
+    for (std::size_t row = 0; row < patch.rows; ++row) {
+        const double share = (static_cast<double>(row) + 0.5) / static_cast<double>(patch.rows);
+        for (std::size_t column = 0; column < patch.columns; ++column) {
+            const glm::dvec2 at = place(share, sine(patch.angle(column)));
+            patch.light.push_back(light.at(at));
+            patch.is_seen.push_back(is_inside(mask, at));
+            pixels.push_back(patch.is_seen.back() ? light.pixel(at) : Pixel{});
+            if (patch.is_seen.back() && share < surely) seen.push_back(pixels.back());
+        }
+    }
+    // What has quite another hue is none of the skin: warts, grass, a lower face below a raised margin.
+    const Hue hue = commonest_hue(std::move(seen));
+    for (std::size_t i = 0; i < texels; ++i)
+        if (patch.is_seen[i] && !are_near(hue_of(pixels[i]), hue, other_hue))
+            patch.is_seen[i] = false;
+    hide_beyond_gaps(patch);
+    return patch;
+}
+
+/// Hides what a ring covers of a stem: it hangs down from where it is attached.
+void hide_ring(SkinPatch& patch, const RingMeasure& ring, const SubCurve& stem, double height_m) {
+    const double reach = 0.02 * height_m + 0.5 * ring.width_m;
+    for (std::size_t row = 0; row < patch.rows; ++row) {
+        const double share = (static_cast<double>(row) + 0.5) / static_cast<double>(patch.rows);
+        if (std::abs(stem.at(share).y - ring.height_m) > reach) continue;
+        for (std::size_t column = 0; column < patch.columns; ++column)
+            patch.is_seen[row * patch.columns + column] = false;
+    }
+}
+
+/// Returns the height of a traced mushroom, pixels.
+double height_of(const Traced& traced) {
+    double top = traced.axis.front().y, bottom = top;
+    for (const std::vector<glm::dvec2>* side : {&traced.left, &traced.right})
+        for (const glm::dvec2& point : *side) {
+            top = std::min(top, point.y);
+            bottom = std::max(bottom, point.y);
+        }
+    return bottom - top;
+}
+
+bool shows_enough(const SkinPatch& patch) {
+    const auto seen = std::count(patch.is_seen.begin(), patch.is_seen.end(), true);
+    return static_cast<double>(seen) >= least_seen * static_cast<double>(patch.is_seen.size());
+}
+
+// --- Round the mushroom -----------------------------------------------------------------
+
+/// Copies of a patch that are laid round a mushroom, an eighth of a turn apart; each reaches to its neighbours.
+struct Copy {
+    double turned;   ///< the angle of the patch in its middle, shares of an eighth of a turn
+    double shifted;  ///< along the part, shares of it
+    bool is_mirrored;
+};
+constexpr std::size_t copy_count = 8;
+constexpr std::array<Copy, copy_count> copies = {{{0.21, 0.000, false},
+                                                  {-0.30, 0.017, true},
+                                                  {0.05, -0.022, false},
+                                                  {0.33, 0.009, true},
+                                                  {-0.14, -0.013, true},
+                                                  {-0.26, 0.024, false},
+                                                  {0.12, -0.006, true},
+                                                  {0.29, 0.014, false}}};
+
+/// A patch that goes on round the mushroom without a seam: the colours along the part, and on them copies of what
+/// is finer.
+class Round {
+  public:
+    explicit Round(const SkinPatch& patch)
+        : rows_(patch.rows), columns_(patch.columns), reach_(patch.reach) {
+        bases_.reserve(rows_);
+        details_.reserve(patch.light.size());
+        for (std::size_t row = 0; row < rows_; ++row) add_row(patch, row);
+    }
+
+    /// Returns the light at a share of the part and an angle round the mushroom. Two copies are mixed about their
+    /// mean, which is 0; dividing by the length of the weights gives the mix the contrast of each.
+    [[nodiscard]] glm::dvec3 at(double share, double angle) const {
+        const double eighths = angle / quarter;
+        glm::dvec3 detail(0.0);
+        double squares = 0.0;
+        for (int side = 0; side < 2; ++side) {
+            const double middle = std::floor(eighths) + side;
+            const double away = eighths - middle;
+            const double half = cosine(0.5 * pi * away);
+            const double weight = half * half;
+            const auto number =
+                static_cast<std::size_t>(static_cast<int>(middle) + 16 * 8) % copy_count;
+            const Copy& copy = copies[number];
+            const double seen = (copy.is_mirrored ? -away : away) + copy.turned;
+            detail += weight * detail_at(share + copy.shifted, seen * quarter);
+            squares += weight * weight;
+        }
+        const glm::dvec3 light = base_at(share) + detail / std::sqrt(squares);
+        return glm::max(light, glm::dvec3(0.0));
+    }
+
+  private:
+    std::size_t rows_, columns_;
+    double reach_;
+    std::vector<glm::dvec3> bases_, details_;
+
+    /// Columns to either side whose mean is the coarse light of a row.
+    [[nodiscard]] std::size_t window() const { return columns_ / 10; }
+
+    void add_row(const SkinPatch& patch, std::size_t row) {
+        std::vector<glm::dvec3> sums(columns_ + 1, glm::dvec3(0.0));
+        for (std::size_t column = 0; column < columns_; ++column)
+            sums[column + 1] = sums[column] + patch.light[row * columns_ + column];
+        bases_.push_back(sums.back() / static_cast<double>(columns_));
+        for (std::size_t column = 0; column < columns_; ++column) {
+            const std::size_t from = column > window() ? column - window() : 0,
+                              to = std::min(column + window() + 1, columns_);
+            details_.push_back(patch.light[row * columns_ + column] -
+                               (sums[to] - sums[from]) / static_cast<double>(to - from));
+        }
+    }
+
+    /// Returns a place between the middles of rows or columns.
+    static double between(double share, std::size_t count) {
+        return std::clamp(share * static_cast<double>(count) - 0.5, 0.0,
+                          static_cast<double>(count) - 1.001);
+    }
+
+    [[nodiscard]] glm::dvec3 base_at(double share) const {
+        const double place = between(share, rows_);
+        const auto row = static_cast<std::size_t>(place);
+        const double part = place - static_cast<double>(row);
+        return (1.0 - part) * bases_[row] + part * bases_[row + 1];
+    }
+
+    [[nodiscard]] glm::dvec3 detail_at(double share, double angle) const {
+        const double down = between(share, rows_),
+                     across = between(0.5 + 0.5 * angle / reach_, columns_);
+        const auto row = static_cast<std::size_t>(down), column = static_cast<std::size_t>(across);
+        const double lower = down - static_cast<double>(row),
+                     right = across - static_cast<double>(column);
+        const auto texel = [&](std::size_t i, std::size_t j) { return details_[i * columns_ + j]; };
+        return (1.0 - lower) *
+                   ((1.0 - right) * texel(row, column) + right * texel(row, column + 1)) +
+               lower *
+                   ((1.0 - right) * texel(row + 1, column) + right * texel(row + 1, column + 1));
+    }
+};
+
+std::uint8_t encoded(double light) {
+    return static_cast<std::uint8_t>(255.0 * linear_to_srgb(std::clamp(light, 0.0, 1.0)) + 0.5);
+}
+
+template <class At>
+Picture picture_of(int width, int height, At at) {
+    Picture picture{width, height, {}};
+    picture.rgb.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const glm::dvec3 light = at((x + 0.5) / width, (y + 0.5) / height);
+            for (int c = 0; c < 3; ++c) picture.rgb.push_back(encoded(light[c]));
+        }
+    return picture;
+}
+
+// --- Fill and shade ---------------------------------------------------------------------
+
+/// A copy of a patch whose texels are means of those that are seen.
+struct Level {
+    std::size_t rows, columns;
+    std::vector<glm::dvec3> light;
+    std::vector<double> weight;
+
+    /// Returns the light at the middle of a texel of the finer copy.
+    [[nodiscard]] glm::dvec3 between(std::size_t row, std::size_t column) const {
+        const auto nearest = [](std::size_t fine, std::size_t count) {
+            const std::size_t own = fine / 2;
+            const std::size_t other = fine % 2 == 0 ? (own > 0 ? own - 1 : own) : own + 1;
+            return std::array<std::size_t, 2>{own, std::min(other, count - 1)};
+        };
+        const auto [own_row, other_row] = nearest(row, rows);
+        const auto [own_column, other_column] = nearest(column, columns);
+        const auto texel = [this](std::size_t i, std::size_t j) { return light[i * columns + j]; };
+        return 0.75 * (0.75 * texel(own_row, own_column) + 0.25 * texel(own_row, other_column)) +
+               0.25 * (0.75 * texel(other_row, own_column) + 0.25 * texel(other_row, other_column));
+    }
+};
+
+Level halved(const Level& of) {
+    Level half{(of.rows + 1) / 2, (of.columns + 1) / 2, {}, {}};
+    half.light.assign(half.rows * half.columns, glm::dvec3(0.0));
+    half.weight.assign(half.rows * half.columns, 0.0);
+    for (std::size_t row = 0; row < of.rows; ++row)
+        for (std::size_t column = 0; column < of.columns; ++column) {
+            const std::size_t from = row * of.columns + column,
+                              to = (row / 2) * half.columns + column / 2;
+            half.light[to] += of.weight[from] * of.light[from];
+            half.weight[to] += of.weight[from];
+        }
+    for (std::size_t i = 0; i < half.light.size(); ++i) {
+        if (half.weight[i] > 0.0) half.light[i] /= half.weight[i];
+        half.weight[i] = std::min(half.weight[i], 1.0);
+    }
+    return half;
+}
+
+/// Solves a linear system of three equations by Cramer's rule; zero if it has no single solution.
+glm::dvec3 solved(const std::array<glm::dvec3, 3>& columns, const glm::dvec3& right) {
+    const auto determinant = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        return glm::dot(a, glm::cross(b, c));
+    };
+    const double whole = determinant(columns[0], columns[1], columns[2]);
+    if (std::abs(whole) < 1e-12) return glm::dvec3(0.0);
+    return {determinant(right, columns[1], columns[2]) / whole,
+            determinant(columns[0], right, columns[2]) / whole,
+            determinant(columns[0], columns[1], right) / whole};
+}
+
+}  // namespace
+
+void fill(SkinPatch& patch) {
+    std::vector<Level> levels = {{patch.rows, patch.columns, patch.light, {}}};
+    levels[0].weight.reserve(patch.is_seen.size());
+    for (const bool is_seen : patch.is_seen) levels[0].weight.push_back(is_seen ? 1.0 : 0.0);
+    while (levels.back().rows > 1 || levels.back().columns > 1)
+        levels.push_back(halved(levels.back()));
+    for (std::size_t k = levels.size() - 1; k > 0; --k) {
+        const Level& coarse = levels[k];
+        Level& fine = levels[k - 1];
+        for (std::size_t row = 0; row < fine.rows; ++row)
+            for (std::size_t column = 0; column < fine.columns; ++column) {
+                const std::size_t i = row * fine.columns + column;
+                const glm::dvec3 around = coarse.between(row, column);
+                fine.light[i] = fine.weight[i] * fine.light[i] + (1.0 - fine.weight[i]) * around;
+                fine.weight[i] = 1.0;
+            }
+    }
+    patch.light = std::move(levels[0].light);
+    patch.is_seen.assign(patch.light.size(), true);
+}
+
+void unshade(SkinPatch& patch, bool has_depth) {
+    // Light over the mean of its row, so that colours along the part do not count.
+    std::vector<double> means(patch.rows, 0.0);
+    for (std::size_t row = 0; row < patch.rows; ++row)
+        for (std::size_t column = 0; column < patch.columns; ++column)
+            means[row] += luminance(patch.light[row * patch.columns + column]) /
+                          static_cast<double>(patch.columns);
+    std::vector<std::array<double, 2>> normals;
+    normals.reserve(patch.columns);
+    for (std::size_t column = 0; column < patch.columns; ++column) {
+        const SineCosine angle = sine_cosine(patch.angle(column));
+        normals.push_back({angle.sine, has_depth ? angle.cosine : 0.0});
+    }
+    constexpr int rounds = 4;
+    constexpr double outlier = 0.15;  // a difference that counts half
+    glm::dvec3 shade(1.0, 0.0, 0.0);
+    for (int round = 0; round < rounds; ++round) {
+        std::array<glm::dvec3, 3> system = {};
+        glm::dvec3 right(0.0);
+        for (std::size_t row = 0; row < patch.rows; ++row)
+            for (std::size_t column = 0; column < patch.columns; ++column) {
+                if (means[row] <= 0.0) continue;
+                const glm::dvec3 terms(1.0, normals[column][0], normals[column][1]);
+                const double light =
+                    luminance(patch.light[row * patch.columns + column]) / means[row];
+                const double apart = (light - glm::dot(shade, terms)) / outlier;
+                const double weight = round == 0 ? 1.0 : 1.0 / (1.0 + apart * apart);
+                for (int k = 0; k < 3; ++k)
+                    system[static_cast<std::size_t>(k)] += weight * terms[k] * terms;
+                right += weight * light * terms;
+            }
+        if (!has_depth) system[2] = {0.0, 0.0, 1.0};
+        const glm::dvec3 found = solved(system, right);
+        if (found == glm::dvec3(0.0)) return;
+        shade = found;
+    }
+    constexpr double least_shade = 0.25;
+    for (std::size_t row = 0; row < patch.rows; ++row)
+        for (std::size_t column = 0; column < patch.columns; ++column) {
+            const double here =
+                shade.x + shade.y * normals[column][0] + shade.z * normals[column][1];
+            patch.light[row * patch.columns + column] /= std::max(here, least_shade);
+        }
+}
+
+PhotoImages photo_images(const Picture& picture, const Mask& mask, const Traced& traced,
+                         double height_m) {
+    constexpr std::size_t rows = 256;
+    const Outline outline = Outline::unproven(traced.shape.silhouette, "/silhouette");
+    const TracedAxis axis(traced.axis);
+    const double scale = height_of(traced) / height_m;  // pixels of a metre
+    PhotoImages images;
+
+    SkinPatch stem = patch_of(picture, mask, rows, 1.0, [&](double share, double to_right) {
+        const OutlineSample sample = outline.stem.at(share);
+        return axis.beside(to_right * sample.r * scale, std::max(sample.y, 0.0) * scale);
+    });
+    if (traced.ring) hide_ring(stem, *traced.ring, outline.stem, height_m);
+    if (shows_enough(stem)) {
+        fill(stem);
+        unshade(stem, true);
+        const Round round(stem);
+        images.stem = picture_of(image_side, image_side / 2, [&](double along, double across) {
+            return round.at(along, 2.0 * pi * across);
+        });
+    }
+
+    const glm::dvec2 middle = 0.5 * (traced.margins[0] + traced.margins[1]);
+    const glm::dvec2 width = traced.margins[1] - traced.margins[0];
+    if (glm::length(width) < 1.0) return images;
+    const glm::dvec2 right = width / glm::length(width), up(right.y, -right.x);
+    const OutlinePoint margin = traced.shape.silhouette.cap.front();
+    // Both ends of the cap's width are measured, so its own scale is better than that of the axis.
+    const double of_cap = margin.r > 0.0 ? 0.5 * glm::length(width) / margin.r : scale;
+    SkinPatch cap = patch_of(picture, mask, rows, 0.5, [&](double share, double to_right) {
+        const OutlineSample sample = outline.cap.at(1.0 - share);
+        return middle + of_cap * (to_right * sample.r * right + (sample.y - margin.y) * up);
+    });
+    if (shows_enough(cap)) {
+        fill(cap);
+        unshade(cap, false);
+        const Round round(cap);
+        images.cap = picture_of(image_side, image_side, [&](double u, double v) {
+            const double x = 2.0 * u - 1.0, y = 2.0 * v - 1.0;
+            return round.at(std::min(std::sqrt(x * x + y * y), 0.9999), arc_tangent(y, x));
+        });
+    }
+    return images;
+}
+
+}  // namespace sporeprint::trace
