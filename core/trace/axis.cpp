@@ -164,8 +164,9 @@ double wave_at(const std::vector<Middle>& middles, const Polynomial& curve, doub
 }
 
 /// Returns the middle of the lowest part of a contour along a direction.
-glm::dvec2 foot_of(const Contour& contour, const glm::dvec2& up, double length) {
-    constexpr double part = 0.025;
+///
+/// part  share of the length
+glm::dvec2 foot_of(const Contour& contour, const glm::dvec2& up, double length, double part) {
     double lowest = 1e300;
     for (const glm::dvec2& point : contour) lowest = std::min(lowest, glm::dot(point, up));
     const glm::dvec2 right = to_right(up);
@@ -228,7 +229,7 @@ TracedAxis axis_of(const Contour& contour, const Stroke& drawn,
                    const std::optional<glm::dvec2>& top) {
     const glm::dvec2 drawn_up = Chord(drawn.front(), drawn.back()).along;
     const double reach = glm::length(drawn.back() - drawn.front());
-    const glm::dvec2 foot = foot_of(contour, drawn_up, reach);
+    const glm::dvec2 foot = foot_of(contour, drawn_up, reach, 0.025);
     const Chord chord(foot, drawn.back());
     std::vector<glm::dvec2> line;
     for (const glm::dvec2& point : drawn) line.push_back(chord.local(point));
@@ -271,6 +272,24 @@ TracedAxis axis_of(const Contour& contour, const Stroke& drawn,
     if (const auto cap = first_hit(contour, points.back(), up); cap && *cap > 1e-6)
         points.push_back(points.back() + *cap * up);
     return TracedAxis(std::move(points));
+}
+
+TracedAxis straight_axis(const Contour& contour, const Stroke& drawn) {
+    glm::dvec2 sum(0.0);
+    double area = 0.0;
+    const glm::dvec2 origin = contour.front();
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+        const glm::dvec2 a = contour[i] - origin, b = contour[(i + 1) % contour.size()] - origin;
+        const double twice = a.x * b.y - a.y * b.x;
+        area += twice;
+        sum += twice / 3.0 * (a + b);
+    }
+    const glm::dvec2 middle = origin + sum / (std::abs(area) < 1e-9 ? 1e-9 : area);
+    const Chord rough(drawn.front(), middle);
+    const glm::dvec2 foot = foot_of(contour, rough.along, rough.length, 0.15);
+    const Chord chord(foot, middle);
+    const double beyond = first_hit(contour, middle, chord.along).value_or(0.0);
+    return TracedAxis({foot, middle, middle + std::max(beyond, 1e-6) * chord.along});
 }
 
 }  // namespace sporeprint::trace

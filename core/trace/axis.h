@@ -53,4 +53,10 @@ class TracedAxis {
 [[nodiscard]] TracedAxis axis_of(const Contour& contour, const Stroke& drawn,
                                  const std::optional<glm::dvec2>& top = std::nullopt);
 
+/// Returns the straight line from the foot through the middle of the area of a contour to where it leaves it:
+/// the axis of a mushroom that is wider than high and has no stem to speak of.
+///
+/// drawn  as of axis_of(); only its beginning counts
+[[nodiscard]] TracedAxis straight_axis(const Contour& contour, const Stroke& drawn);
+
 }  // namespace sporeprint::trace

@@ -16,6 +16,9 @@ namespace {
 constexpr double most_error = 0.004;
 constexpr std::size_t most_points = 10;
 
+/// Points of what is not on the photograph.
+constexpr std::size_t hidden_points = 6;
+
 /// How much a turn of all of a part counts beside its length where points are placed.
 constexpr double turning_weight = 0.7;
 
@@ -172,18 +175,28 @@ FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis, const M
     const double scale = height_m / height;
     Controls controls;
     controls.has_corner = profile.has_corner;
-    std::size_t stem = 5, face = 4, cap = 5;
+    const auto end = profile.cap.begin() + static_cast<std::ptrdiff_t>(profile.seen);
+    const Part seen(profile.cap.begin(), end);
+    Part hidden;
+    if (end != profile.cap.end()) {
+        hidden = chosen(Part(end - 1, profile.cap.end()), hidden_points);
+        hidden.erase(hidden.begin());
+    }
+    std::size_t stem = 5, face = 4, cap = seen.size() > 1 && !hidden.empty() ? 3 : 5;
     FittedShape found;
     while (true) {
         controls.stem = chosen(profile.stem, stem);
         if (!profile.has_foot) controls.stem = with_root(controls.stem, height);
-        controls.face = chosen(profile.face, face);
-        controls.cap = chosen(profile.cap, cap);
+        if (!profile.face.empty()) controls.face = chosen(profile.face, face);
+        controls.cap = seen.size() > 1 ? chosen(seen, cap) : seen;
+        controls.cap.insert(controls.cap.end(), hidden.begin(), hidden.end());
         found.silhouette = controls.silhouette(scale);
         const Outline outline = Outline::unproven(found.silhouette, "/silhouette");
         const double of_stem = error_of(profile.stem, outline.stem, scale),
-                     of_face = error_of(profile.face, outline.hymenium, scale),
-                     of_cap = error_of(profile.cap, outline.cap, scale);
+                     of_face = profile.face.empty()
+                                   ? 0.0
+                                   : error_of(profile.face, outline.hymenium, scale),
+                     of_cap = error_of(seen, outline.cap, scale);
         found.error = std::max({of_stem, of_face, of_cap}) / height;
         bool grown = false;
         const auto grow = [&](std::size_t& count, double error) {

@@ -1,6 +1,7 @@
 #include "core/trace/marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -14,6 +15,9 @@ namespace {
 /// Windows over which the turn of an outline is measured, of the height: at corners, and where there is
 /// none.
 constexpr double window = 0.02, wide_window = 0.06;
+
+/// How far turns of edges reach, of the widest radius: so far that no wart is taken for one.
+constexpr double edge_reach = 0.25, near_edge_reach = 0.08;
 
 /// A margin is at least so far out, of the greatest distance, and not in the lowest part of the axis.
 constexpr double of_greatest = 0.94, not_below = 0.4;
@@ -31,8 +35,33 @@ constexpr double below_narrowest = 0.03;
 /// A junction with a corner turns by so much at least, and is at most so far from the axis as the margin.
 constexpr double corner_deg = 25.0, most_of_margin = 0.8;
 
-/// A stem is at least so long, of the height.
-constexpr double least_stem = 0.01;
+/// A stem is at least so long, of the height; and of forms whose stem may be no more than a foot.
+constexpr double least_stem = 0.01, least_foot = 0.05;
+
+/// A stem has begun to widen where it is wider than its narrowest place by these factors, under a funnel or a
+/// puffball, and under a cup, and by this share of the height.
+constexpr double widened = 1.15, widened_cup = 1.5, slack = 0.01;
+
+/// The part of a club that is its stem, of the height; more where the rest bends, for a head is rigid: so much
+/// that the halves of the head are nearly alike, of the height.
+constexpr std::array<double, 4> club_stems = {0.31, 0.45, 0.6, 0.75};
+constexpr double club_halves = 0.008;
+
+/// What tells forms apart. A top is flat if its edges turn by so much at least, or if it rises above the line
+/// between them by so little, of their distance; it may rise by more where the edges are sharp.
+constexpr double least_edge = 50.0, flat_dome = 0.17, most_dome = 0.33;
+
+/// A club is narrower than this, of the height; a funnel's outer face is steeper than this.
+constexpr double widest_club = 0.22, least_slope = 0.5;
+
+/// A cup's outer face begins below this, of the height, and is steeper than this; it bulges in the mean by so
+/// much, of its length, or the cup or its foot is so wide, of the height and of the widest radius. With
+/// an angle it begins below this height.
+constexpr double highest_cup = 0.5, cup_slope = 0.35, least_bulge = 0.03, wide_cup = 0.75,
+                 wide_foot = 0.55, highest_corner = 0.3;
+
+/// The edge of a funnel or cup is at least so far out, of the greatest distance.
+constexpr double rim_of_greatest = 0.75;
 
 /// Returns the points of a contour from one of them to another, forwards or backwards.
 std::vector<glm::dvec2> walked(const Contour& contour, std::size_t from, std::size_t to,
@@ -138,6 +167,74 @@ bool mark(ContourSide& side, double sign, double height) {
     return false;
 }
 
+/// Returns the farthest place of a side from the axis, not in the lowest part.
+std::size_t widest_of(const ContourSide& side) {
+    const double lowest = not_below * side.local.back().y;
+    std::size_t widest = side.local.size() - 1;
+    for (std::size_t i = 0; i < side.local.size(); ++i)
+        if (side.local[i].y > lowest && side.local[i].x > side.local[widest].x) widest = i;
+    return widest;
+}
+
+/// Returns the edge of a mushroom that is open above: the sharpest convex place of its upper, outer part, found
+/// from afar and then from near.
+std::size_t rim_of(const ContourSide& side, double sign) {
+    const double lowest = not_below * side.local.back().y;
+    const double farthest = side.local[widest_of(side)].x;
+    const Turns afar(side.points, sign, edge_reach * farthest),
+        near(side.points, sign, near_edge_reach * farthest);
+    const auto sharpest = [&](const Turns& turns, double from, double to) {
+        double most = -1e300;
+        std::size_t found = side.local.size() - 1;
+        for (std::size_t i = turns.index(from); i < side.local.size() && turns.arc(i) <= to; ++i) {
+            if (side.local[i].y <= lowest || side.local[i].x <= rim_of_greatest * farthest)
+                continue;
+            const double turn = turns.at(i);
+            if (turn <= most) continue;
+            most = turn;
+            found = i;
+        }
+        return found;
+    };
+    const double arc = afar.arc(sharpest(afar, 0.0, 1e300)), reach = 0.5 * edge_reach * farthest;
+    return sharpest(near, arc - reach, arc + reach);
+}
+
+/// Returns the last place below another where a side is no wider than its narrowest place by a factor.
+std::size_t widening_of(const ContourSide& side, std::size_t below, double factor, double height) {
+    double narrowest = 1e300;
+    for (std::size_t i = 0; i < below; ++i)
+        if (side.local[i].y >= 2.0 * least_foot * height)
+            narrowest = std::min(narrowest, side.local[i].x);
+    std::size_t i = below;
+    while (i > 0 && side.local[i].x > factor * narrowest + slack * height &&
+           side.local[i].y > least_foot * height)
+        --i;
+    return i;
+}
+
+/// Marks one side of a mushroom that has a margin without an angle below it, or a head.
+void mark_smooth(ContourSide& side, double sign, Form form, double height) {
+    if (form == Form::funnel) {
+        side.margin = rim_of(side, sign);
+        side.junction = widening_of(side, side.margin, widened, height);
+    } else if (form == Form::cup) {
+        side.margin = rim_of(side, sign);
+        side.junction = widening_of(side, side.margin, widened_cup, height);
+    } else if (form == Form::puffball) {
+        side.margin = side.junction = widening_of(side, widest_of(side), widened, height);
+    }
+}
+
+/// Marks one side of a club whose stem is a share of its height.
+void mark_club(ContourSide& side, double share) {
+    const double top = share * side.local.back().y;
+    side.junction = 0;
+    while (side.junction + 2 < side.local.size() && side.local[side.junction].y < top)
+        ++side.junction;
+    side.margin = side.junction;
+}
+
 /// The contour of a cap from its left margin over the apex to its right one.
 struct CapLine {
     std::vector<glm::dvec2> points;
@@ -159,12 +256,18 @@ struct CapLine {
     }
 };
 
-/// Returns the turn of the cap against the axis at which its halves are most alike, degrees.
-double turn_of_cap(const Marks& marks, const TracedAxis& axis, double height) {
+/// A turn of a cap or head against the axis, degrees, and the mean square of the distances between its halves,
+/// square pixels.
+struct CapTurn {
+    double deg = 0.0, apart = 1e300;
+};
+
+/// Returns the turn at which both halves are most alike.
+CapTurn turn_of_cap(const Marks& marks, const TracedAxis& axis, double height) {
     constexpr double most = 24.0, step = 1.5, reluctance = 0.02;
     constexpr std::size_t places = 40;
     const CapLine line(marks.sides);
-    double best = 0.0, least = 1e300;
+    CapTurn best;
     for (double turn = -most; turn <= most + 1e-9; turn += step) {
         const CapFrame frame(axis, marks.stem_top, turn);
         const std::size_t apex = line.apex(frame), last = line.points.size() - 1;
@@ -179,11 +282,30 @@ double turn_of_cap(const Marks& marks, const TracedAxis& axis, double height) {
         }
         const double bias = 0.1 * height * radians(turn);
         sum += reluctance * bias * bias;
-        if (sum >= least) continue;
-        least = sum;
-        best = turn;
+        if (sum < best.apart) best = {turn, sum};
     }
     return best;
+}
+
+/// Lets the frame of a cup stand square to its edge, which waves: to the line from which its places are least
+/// away.
+void square_to_rim(Marks& marks, const TracedAxis& axis) {
+    constexpr double most = 24.0;
+    const std::vector<glm::dvec2> line = CapLine(marks.sides).points;
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2& point : line) middle += point / static_cast<double>(line.size());
+    double across = 0.0, both = 0.0, along = 0.0;
+    const CapFrame straight(axis, marks.stem_top, 0.0);
+    for (const glm::dvec2& point : line) {
+        const glm::dvec2 at = straight.local(point) - straight.local(middle);
+        across += at.x * at.x;
+        both += at.x * at.y;
+        along += at.y * at.y;
+    }
+    // The edge rises to the right by half of this angle; the frame turns to the left by as much.
+    const double rise = 0.5 * arc_tangent(2.0 * both, across - along) * (180.0 / pi);
+    marks.cap_turn_deg = std::clamp(-rise, -most, most);
+    marks.rim = CapFrame(axis, marks.stem_top, marks.cap_turn_deg).local(middle).y;
 }
 
 /// Lets both sides meet where the cap's own axis leaves the cap.
@@ -206,6 +328,35 @@ void move_apex(Marks& marks, const TracedAxis& axis) {
     }
 }
 
+/// Returns true if the margin is farther out than the stem.
+bool has_cap(const Marks& marks) {
+    const auto &left = marks.sides[0], &right = marks.sides[1];
+    const double stem = 0.5 * (left.local[left.junction].x + right.local[right.junction].x),
+                 cap = 0.5 * (left.local[left.margin].x + right.local[right.margin].x);
+    return stem < 0.95 * cap;
+}
+
+/// Returns the sides of a mushroom, marked as those of a capped one.
+Marks marked(const Contour& contour, const TracedAxis& axis, double height) {
+    Marks marks;
+    const glm::dvec2 low = axis.at(0.02 * axis.length()), down = -axis.tangent(0.0);
+    const std::size_t apex = nearest_to(contour, axis.at(axis.length())),
+                      foot = nearest_to(contour,
+                                        low + first_hit(contour, low, down).value_or(0.0) * down);
+    for (std::size_t k = 0; k < 2; ++k) {
+        ContourSide& side = marks.sides[k];
+        const double sign = k == 0 ? -1.0 : 1.0;
+        // The mushroom is on the right hand of the contour, so that its left side goes up.
+        side.points = walked(contour, foot, apex, k == 0);
+        for (const glm::dvec2& point : side.points) {
+            const glm::dvec2 at = axis.local(point);
+            side.local.emplace_back(sign * at.x, at.y);
+        }
+        marks.has_corner = mark(side, sign, height) && marks.has_corner;
+    }
+    return marks;
+}
+
 }  // namespace
 
 CapFrame::CapFrame(const TracedAxis& axis, double stem_top, double turn_deg)
@@ -220,35 +371,88 @@ glm::dvec2 CapFrame::local(const glm::dvec2& point) const {
     return {glm::dot(point - origin, right), glm::dot(point - origin, up)};
 }
 
-Marks marks_of(const Contour& contour, const TracedAxis& axis, double height) {
-    Marks marks;
-    const glm::dvec2 low = axis.at(0.02 * axis.length()), down = -axis.tangent(0.0);
-    const std::size_t apex = nearest_to(contour, axis.at(axis.length())),
-                      foot = nearest_to(contour,
-                                        low + first_hit(contour, low, down).value_or(0.0) * down);
-    bool corners = true;
+Form likely_form(const Contour& contour, const TracedAxis& axis, double height) {
+    const Marks marks = marked(contour, axis, height);
+    double edge = 1e300, widest = 0.0, foot = 0.0, rise = 0.0, run = 0.0, dome = 0.0, bulge = 0.0,
+           low = 0.0, corner = 0.0;
+    std::array<glm::dvec2, 2> rims{};
     for (std::size_t k = 0; k < 2; ++k) {
-        ContourSide& side = marks.sides[k];
-        const double sign = k == 0 ? -1.0 : 1.0;
-        // The mushroom is on the right hand of the contour, so that its left side goes up.
-        side.points = walked(contour, foot, apex, k == 0);
-        for (const glm::dvec2& point : side.points) {
-            const glm::dvec2 at = axis.local(point);
-            side.local.emplace_back(sign * at.x, at.y);
+        const ContourSide& side = marks.sides[k];
+        const double sign = k == 0 ? -1.0 : 1.0, radius = side.local[widest_of(side)].x;
+        const std::size_t rim = rim_of(side, sign),
+                          face_from = widening_of(side, rim, widened, height),
+                          foot_top = widening_of(side, rim, widened_cup, height);
+        edge = std::min(edge, Turns(side.points, sign, edge_reach * radius).at(rim));
+        rims[k] = side.points[rim];
+        widest += 0.5 * radius;
+        rise += side.local[rim].y - side.local[face_from].y;
+        run += side.local[rim].x - side.local[face_from].x;
+        foot += 0.5 * side.local[foot_top].x;
+        low += 0.5 * side.local[foot_top].y;
+        corner += 0.5 * side.local[side.junction].y;
+        const glm::dvec2 from = side.local[face_from], face = side.local[rim] - from;
+        const double square = std::max(glm::dot(face, face), 1e-9);
+        for (std::size_t i = face_from; i < rim; ++i) {
+            const glm::dvec2 off = side.local[i] - from;
+            bulge += 0.5 * (face.y * off.x - face.x * off.y) / square /
+                     static_cast<double>(rim - face_from);
         }
-        corners = mark(side, sign, height) && corners;
     }
-    const auto &left = marks.sides[0], &right = marks.sides[1];
-    const double stem = 0.5 * (left.local[left.junction].x + right.local[right.junction].x),
-                 cap = 0.5 * (left.local[left.margin].x + right.local[right.margin].x);
-    if (stem >= 0.95 * cap)
-        throw InvalidInput("/form", "no cap found: choose club, cup, puffball or bracket");
-    marks.has_corner = corners;
+    const glm::dvec2 chord = rims[1] - rims[0];
+    const double width = std::max(glm::length(chord), 1e-9);
+    for (const glm::dvec2& point : contour) {
+        const glm::dvec2 off = point - rims[0];
+        dome = std::max(dome, (chord.y * off.x - chord.x * off.y) / (width * width));
+    }
+    const bool is_flat = dome <= flat_dome || (edge >= least_edge && dome <= most_dome),
+               has_corner =
+                   marks.has_corner && has_cap(marks) && corner > 2.0 * least_stem * height;
+    if (is_flat && low < highest_cup * height && rise > cup_slope * run &&
+        !(has_corner && low > highest_corner * height) &&
+        (bulge > least_bulge || foot > wide_foot * widest || widest > wide_cup * height))
+        return Form::cup;
+    if (has_corner) return Form::capped;
+    if (is_flat && rise >= least_slope * run) return Form::funnel;
+    if (edge >= least_edge && has_cap(marks)) return Form::capped;
+    return widest < widest_club * height ? Form::club : Form::puffball;
+}
+
+Marks marks_of(const Contour& contour, const TracedAxis& axis, double height, Form form) {
+    Marks marks = marked(contour, axis, height);
+    marks.form = form;
+    auto &left = marks.sides[0], &right = marks.sides[1];
+    if (form == Form::morel) {
+        left.margin = left.junction;
+        right.margin = right.junction;
+    } else if (form == Form::club) {
+        marks.has_corner = false;
+        for (const double share : club_stems) {
+            mark_club(left, share);
+            mark_club(right, share);
+            marks.stem_top = 0.5 * (left.local[left.junction].y + right.local[right.junction].y);
+            const double most = club_halves * height;
+            if (turn_of_cap(marks, axis, height).apart < most * most) break;
+        }
+    } else if (form != Form::capped) {
+        marks.has_corner = false;
+        mark_smooth(left, -1.0, form, height);
+        mark_smooth(right, 1.0, form, height);
+    }
+    if (form == Form::capped && !has_cap(marks))
+        throw InvalidInput("/form",
+                           "no cap found: choose funnel, morel, club, puffball, cup or auto");
     marks.stem_top =
         std::max(0.5 * (left.local[left.junction].y + right.local[right.junction].y), 0.0);
-    if (marks.stem_top < least_stem * height)
-        throw InvalidInput("/form", "no stem found: choose club, cup, puffball or bracket");
-    marks.cap_turn_deg = turn_of_cap(marks, axis, height);
+    if (marks.stem_top < least_stem * height) {
+        if (form == Form::puffball || form == Form::cup)
+            throw InvalidInput("/gesture/axis",
+                               "no foot found on this line; draw it from the foot to the top");
+        throw InvalidInput("/form", "no stem found: choose puffball, cup or auto");
+    }
+    if (form == Form::cup)
+        square_to_rim(marks, axis);
+    else
+        marks.cap_turn_deg = turn_of_cap(marks, axis, height).deg;
     move_apex(marks, axis);
     return marks;
 }

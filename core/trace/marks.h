@@ -1,4 +1,4 @@
-// Where the parts of a capped mushroom meet on its contour: margin, junction and apex.
+// Where the parts of a mushroom meet on its contour: margin, junction and apex.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 
 #include "core/trace/axis.h"
 #include "core/trace/contour.h"
+#include "core/trace/form.h"
 
 namespace sporeprint::trace {
 
@@ -15,17 +16,20 @@ struct ContourSide {
     std::vector<glm::dvec2> points;  ///< pixels
     /// Distance outwards from the axis and arc length along it from the foot, pixels.
     std::vector<glm::dvec2> local;
-    std::size_t junction = 0;  ///< where the stem meets the lower face
-    std::size_t margin = 0;    ///< the edge of the cap, junction <= margin
+    std::size_t junction = 0;  ///< where the stem meets the lower face or the head
+    std::size_t margin = 0;    ///< the edge of the cap, junction <= margin; equal for a head
 };
 
 /// The marks of both sides, and how the cap stands on the stem.
 struct Marks {
+    Form form = Form::capped;          ///< never Form::automatic
     std::array<ContourSide, 2> sides;  ///< to the left and to the right of the axis
     double stem_top = 0.0;             ///< arc length of the axis where the stem ends, pixels
     double cap_turn_deg = 0.0;  ///< of the cap against the stem's top, to the right where positive
-    /// Whether stem and lower face meet at an angle on both sides; where they do not, the junction is
-    /// where the outline turns outwards most.
+    double rim =
+        0.0;  ///< of a cup: mean height of its edge above the stem's top, in its frame, pixels
+    /// Whether the stem ends at an angle on both sides; where it does not, the junction is where the outline
+    /// turns outwards most, or where it begins to widen.
     bool has_corner = true;
 };
 
@@ -40,13 +44,25 @@ struct CapFrame {
     [[nodiscard]] glm::dvec2 local(const glm::dvec2& point) const;
 };
 
-/// Finds the parts of a mushroom with a stem and a cap.
+/// Returns the form that a mushroom is most like; never Form::automatic or Form::morel, whose outline a capped
+/// mushroom may have too.
+[[nodiscard]] Form likely_form(const Contour& contour, const TracedAxis& axis, double height);
+
+/// Finds the parts of a mushroom of a form.
+///
+/// capped    the margin is the sharpest convex place far from the axis; the junction is the first place
+///           below it that is nearly as near to the axis as the stem, moved to the most concave one
+///           nearby
+/// funnel    the margin as of a cap; the stem ends where it begins to widen
+/// cup       the margin is where the top begins; the stem ends where it begins to widen
+/// morel     the head begins at the most concave place below its widest one
+/// puffball  the head begins where the stem begins to widen
+/// club      the head begins at a fixed share of the height
 ///
 /// height   of the mushroom, pixels
+/// form     not Form::automatic
 /// throws   InvalidInput (path "/form") if no cap stands out from the stem, or there is no stem
-/// source   the margin is the sharpest convex place far from the axis; the junction is the first place
-///          below it that is nearly as near to the axis as the stem, moved to the most concave
-///          one nearby
-[[nodiscard]] Marks marks_of(const Contour& contour, const TracedAxis& axis, double height);
+[[nodiscard]] Marks marks_of(const Contour& contour, const TracedAxis& axis, double height,
+                             Form form);
 
 }  // namespace sporeprint::trace

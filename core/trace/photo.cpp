@@ -31,6 +31,34 @@ std::vector<Cover> covers(int from, int to) {
 
 constexpr std::array<std::array<int, 2>, 4> beside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
+/// Gives a value to all pixels of a row or column that are within a reach of one that has it.
+///
+/// first, step, count  the pixels of the row or column
+void spread(Mask& mask, std::size_t first, std::size_t step, int count, std::uint8_t value,
+            int reach) {
+    const auto pixel = [&](int i) -> std::uint8_t& {
+        return mask.inside[first + static_cast<std::size_t>(i) * step];
+    };
+    // Beyond both ends are zeros.
+    int free_from = value == 0 ? reach : 0;
+    for (int i = 0; i < count; ++i) {
+        if (pixel(i) != value) continue;
+        for (int k = std::max(free_from, i - reach); k < i; ++k) pixel(k) = value;
+        int last = i;
+        while (last + 1 < count && pixel(last + 1) == value) ++last;
+        i = std::min(last + reach, count - 1);
+        int next = last + 1;
+        for (; next <= i; ++next) {
+            // Pixels that have the value by themselves carry it on.
+            if (pixel(next) == value) i = std::min(next + reach, count - 1);
+            pixel(next) = value;
+        }
+        free_from = next;
+    }
+    if (value != 0) return;
+    for (int i = 0; i < std::min(reach, count); ++i) pixel(i) = pixel(count - 1 - i) = 0;
+}
+
 /// Marks all pixels that hang together with those of a list and have a value in a mask.
 ///
 /// returns  their number without those of the list
@@ -146,20 +174,15 @@ Mask inverted(const Mask& mask) {
     return found;
 }
 
-Mask opened(const Mask& mask) {
-    Mask found(mask.width, mask.height);
-    const auto all = [&](int x, int y) {
-        for (int v = y - 1; v <= y + 1; ++v)
-            for (int u = x - 1; u <= x + 1; ++u)
-                if (!mask.at(u, v)) return false;
-        return true;
-    };
-    for (int y = 1; y + 1 < mask.height; ++y)
-        for (int x = 1; x + 1 < mask.width; ++x) {
-            if (!all(x, y)) continue;
-            for (int v = y - 1; v <= y + 1; ++v)
-                for (int u = x - 1; u <= x + 1; ++u) found.inside[found.index(u, v)] = 1;
-        }
+Mask opened(const Mask& mask, int reach) {
+    Mask found = mask;
+    // What is outside the picture is outside the mask.
+    for (const std::uint8_t value : {std::uint8_t{0}, std::uint8_t{1}}) {
+        for (int y = 0; y < mask.height; ++y)
+            spread(found, found.index(0, y), 1, mask.width, value, reach);
+        for (int x = 0; x < mask.width; ++x)
+            spread(found, found.index(x, 0), found.index(0, 1), mask.height, value, reach);
+    }
     return found;
 }
 

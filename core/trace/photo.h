@@ -55,9 +55,10 @@ struct Mask {
 /// Returns the pixels that are not in a mask.
 [[nodiscard]] Mask inverted(const Mask& mask);
 
-/// Returns the union of all squares of three by three pixels inside a mask: spurs of one or two pixels
-/// are gone.
-[[nodiscard]] Mask opened(const Mask& mask);
+/// Returns the union of all squares inside a mask: spurs that are narrower are gone.
+///
+/// reach  pixels of a square to each side of its middle, 1 for three by three
+[[nodiscard]] Mask opened(const Mask& mask, int reach = 1);
 
 /// Returns a mask of another size, by the pixels in which the middles of its own lie.
 [[nodiscard]] Mask resized(const Mask& mask, int width, int height);

@@ -93,10 +93,49 @@ std::optional<TracedRing> without_ring(std::vector<double>& radii, double step, 
     return ring;
 }
 
+/// Returns the first place of a cap that is nearly as high as any: the edge that hides what is behind it.
+std::size_t edge_of(const std::vector<glm::dvec2>& side, std::size_t margin, double height) {
+    constexpr double flat = 0.012;  // of the height
+    double highest = -1e300;
+    for (std::size_t i = margin; i < side.size(); ++i) highest = std::max(highest, side[i].y);
+    while (side[margin].y < highest - flat * height) ++margin;
+    return margin;
+}
+
+/// Returns the inner wall of a funnel or cup from its edge down to the axis: half an ellipse whose width is
+/// everywhere that of the outer face at the same height, less a wall that becomes thicker downwards.
+///
+/// face    outer face from the stem up to the margin
+/// edge    where the wall begins, as high as the face or higher
+/// bottom  height of its end, between those of the ends of the face
+std::vector<glm::dvec2> inner_wall(const std::vector<glm::dvec2>& face, const glm::dvec2& edge,
+                                   double bottom) {
+    constexpr int steps = 64;
+    constexpr double thickness = 0.15;  // of the radius, at the bottom
+    // The face as far as it climbs: where it first reaches each height.
+    std::vector<glm::dvec2> climb{face.front()};
+    for (const glm::dvec2& at : face)
+        if (at.y > climb.back().y && at.y < edge.y) climb.push_back(at);
+    climb.push_back(edge);
+    std::vector<glm::dvec2> wall;
+    wall.reserve(steps + 1);
+    std::size_t i = climb.size() - 2;
+    for (int k = 0; k <= steps; ++k) {
+        const auto [sine, cosine] = sine_cosine(0.5 * pi * k / steps);
+        const double y = bottom + (edge.y - bottom) * (1.0 - sine);
+        while (i > 0 && climb[i].y > y) --i;
+        const double step = climb[i + 1].y - climb[i].y;
+        const double t = step > 0.0 ? std::clamp((y - climb[i].y) / step, 0.0, 1.0) : 1.0;
+        const double outer = climb[i].x + t * (climb[i + 1].x - climb[i].x);
+        wall.emplace_back(std::min(outer, edge.x) * cosine * (1.0 - thickness * sine), y);
+    }
+    return wall;
+}
+
 }  // namespace
 
 Profile profile_of(const Contour& contour, const TracedAxis& axis, const Marks& marks,
-                   double height) {
+                   double height, double hollow) {
     Profile profile;
     profile.has_corner = marks.has_corner;
     double apart = 0.0, compared = 0.0;
@@ -159,9 +198,14 @@ Profile profile_of(const Contour& contour, const TracedAxis& axis, const Marks& 
             const glm::dvec2 at = frame.local(point);
             local.emplace_back(sign * at.x, marks.stem_top + at.y);
         }
-        faces[k] = evenly(local, side.junction, side.margin, face_points);
-        caps[k] = evenly(local, side.margin, side.points.size() - 1, cap_points);
+        if (has_face(marks.form)) faces[k] = evenly(local, side.junction, side.margin, face_points);
+        const std::size_t end = marks.form == Form::cup      ? side.margin
+                                : marks.form == Form::funnel ? edge_of(local, side.margin, height)
+                                                             : side.points.size() - 1;
+        caps[k] = evenly(local, side.margin, end, end > side.margin ? cap_points : 1);
     }
+    if (caps[0].size() != caps[1].size())  // One side has no more than its edge.
+        for (std::vector<glm::dvec2>& cap : caps) cap.resize(cap_points, cap.back());
     const auto mean = [&](const std::array<std::vector<glm::dvec2>, 2>& halves) {
         std::vector<glm::dvec2> found;
         for (std::size_t i = 0; i < halves[0].size(); ++i) {
@@ -173,16 +217,32 @@ Profile profile_of(const Contour& contour, const TracedAxis& axis, const Marks& 
     };
     profile.face = mean(faces);
     profile.cap = mean(caps);
-    // The stem ends where the face begins, the cap on the axis.
-    const glm::dvec2 offset = profile.stem.back() - profile.face.front();
-    for (std::size_t i = 0; i < profile.face.size(); ++i) {
-        const double t = static_cast<double>(i) / static_cast<double>(profile.face.size() - 1);
-        profile.face[i] += (1.0 - t) * offset;
+    if (marks.form == Form::cup) {
+        // Its edge waves; it is as high as in the mean.
+        const double from = profile.face.front().y, rise = profile.face.back().y - from,
+                     mean_rise = marks.stem_top + marks.rim - from;
+        const double factor = rise > 0.0 ? std::clamp(mean_rise / rise, 0.7, 1.3) : 1.0;
+        for (glm::dvec2& point : profile.face) point.y = from + factor * (point.y - from);
+        profile.cap.front() = profile.face.back();
+    }
+    // The stem ends where the face or the head begins, the cap on the axis.
+    std::vector<glm::dvec2>& next = profile.face.empty() ? profile.cap : profile.face;
+    const glm::dvec2 offset = profile.stem.back() - next.front();
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(next.size() - 1);
+        next[i] += (1.0 - t) * offset;
     }
     for (glm::dvec2& point : profile.face) point.x = std::max(point.x, thinnest * height);
     for (glm::dvec2& point : profile.cap) point.x = std::max(point.x, thinnest * height);
-    profile.face.front() = profile.stem.back();
-    profile.cap.front() = profile.face.back();
+    next.front() = profile.stem.back();
+    if (!profile.face.empty()) profile.cap.front() = profile.face.back();
+    profile.seen = profile.cap.size();
+    if (is_hollow(marks.form)) {
+        const glm::dvec2 edge = profile.cap.back();
+        const double bottom = edge.y - hollow * (edge.y - profile.face.front().y);
+        const std::vector<glm::dvec2> wall = inner_wall(profile.face, edge, bottom);
+        profile.cap.insert(profile.cap.end(), wall.begin() + 1, wall.end());
+    }
     profile.cap.back().x = 0.0;
     profile.asymmetry = apart / compared / height;
     return profile;

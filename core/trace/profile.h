@@ -19,7 +19,9 @@ struct TracedRing {
 /// Three polylines from the foot to the apex, distance from the axis and height along it, pixels. Each begins
 /// where the one before it ends.
 struct Profile {
+    /// The face is empty where a form has none.
     std::vector<glm::dvec2> stem, face, cap;
+    std::size_t seen = 0;  ///< points of the cap from the margin on that are on the photograph
     /// The foot is seen to be round: the stem begins on the axis. Otherwise it goes on into the ground.
     bool has_foot = false;
     std::optional<TracedRing> ring;
@@ -28,10 +30,12 @@ struct Profile {
 };
 
 /// Returns the mean of both sides. The stem is measured square to the axis; the lower face and the cap in
-/// the frame of the stem's top, turned as the cap is.
+/// the frame of the stem's top, turned as the cap is. What is hidden behind the edge of a funnel or cup is
+/// assumed: a round hollow that follows the outer face.
 ///
 /// height  of the mushroom, pixels
+/// hollow  depth of that hollow, of the height of the edge above the top of the stem, 0..1
 [[nodiscard]] Profile profile_of(const Contour& contour, const TracedAxis& axis, const Marks& marks,
-                                 double height);
+                                 double height, double hollow);
 
 }  // namespace sporeprint::trace

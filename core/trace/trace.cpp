@@ -4,9 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 
 #include "core/math/elementary.h"
 #include "core/problems.h"
+#include "core/silhouette/morph_set.h"
 #include "core/trace/axis.h"
 #include "core/trace/cut.h"
 #include "core/trace/fit.h"
@@ -57,34 +59,159 @@ double angle_of(const AxisPoint& from, const AxisPoint& to) {
     return arc_tangent(to.x - from.x, to.y - from.y) * (180.0 / pi);
 }
 
+/// Returns the contour of a mask without hairs, as nests have them; with them, if a thin stem would fall off.
+Contour shaved(const Mask& mask, double height) {
+    constexpr double hair = 0.008;  // half the width of the thickest, of the height
+    const Mask bare = opened(mask, static_cast<int>(hair * height) + 1);
+    Mask first(mask.width, mask.height);
+    const auto pixel = std::find(bare.inside.begin(), bare.inside.end(), 1);
+    if (pixel != bare.inside.end())
+        first.inside[static_cast<std::size_t>(pixel - bare.inside.begin())] = 1;
+    const Mask part = connected_with(bare, first);
+    const bool is_whole = part.area() > 0 && part.area() == bare.area();
+    return contour_of(is_whole ? without_holes(part) : mask, smoothing * height);
+}
+
+/// Returns a straight axis turned about its foot, to the right where the angle is positive.
+TracedAxis turned(const TracedAxis& axis, double turn_deg) {
+    const glm::dvec2 foot = axis.at(0.0), along = axis.at(axis.length()) - foot;
+    const auto [sine, cosine] = sine_cosine(radians(turn_deg));
+    return TracedAxis({foot, foot + cosine * along + sine * glm::dvec2(-along.y, along.x)});
+}
+
+/// Returns the form of a mushroom that is like one of two forms on a straight axis and on one that bends. Caps are
+/// found on the one that bends, but in a wide mushroom it runs away.
+Form chosen_form(Form on_straight, Form on_bent) {
+    if (on_bent == Form::capped) return on_bent;
+    if (on_straight == Form::funnel) return Form::funnel;
+    if (on_straight == Form::capped) return is_hollow(on_bent) ? Form::funnel : Form::capped;
+    return is_hollow(on_bent) ? on_straight : on_bent;
+}
+
+/// Returns the axis of a mushroom; a straight one, if that which bends leaves the mushroom half way.
+TracedAxis sound_axis(const Contour& contour, const Stroke& drawn) {
+    TracedAxis bent = axis_of(contour, drawn), straight = straight_axis(contour, drawn);
+    return bent.length() < 0.5 * straight.length() ? straight : bent;
+}
+
+struct Found {
+    Contour contour;
+    TracedAxis axis;
+    Marks marks;
+};
+
+/// Returns the axis and marks of a cup. Its stem is too short to bend: all of it stands as its edge does.
+Found found_cup(Contour contour, const TracedAxis& middle, double height) {
+    const TracedAxis axis =
+        turned(middle, marks_of(contour, middle, height, Form::cup).cap_turn_deg);
+    Marks marks = marks_of(contour, axis, height, Form::cup);
+    marks.cap_turn_deg = 0.0;
+    return {std::move(contour), axis, std::move(marks)};
+}
+
+/// Returns the axis and marks of any other form.
+///
+/// rough  tells where the stem ends: middles in the cap then do not count
+Found found_on(Contour contour, const Stroke& drawn, const TracedAxis& rough, double height,
+               Form form) {
+    Marks of_rough = marks_of(contour, rough, height, form);
+    // A club has no cap whose middles mislead.
+    if (form == Form::club) return {std::move(contour), rough, std::move(of_rough)};
+    const TracedAxis axis = axis_of(contour, drawn, rough.at(of_rough.stem_top));
+    Marks marks = marks_of(contour, axis, height, form);
+    return {std::move(contour), axis, std::move(marks)};
+}
+
+Found found_in(const Mask& mask, const Stroke& drawn, double height, Form form) {
+    Form on_straight = form;
+    if (form == Form::automatic || form == Form::cup) {
+        const Contour contour = shaved(mask, height);
+        const TracedAxis middle = straight_axis(contour, drawn);
+        if (form == Form::automatic) on_straight = likely_form(contour, middle, height);
+        if (on_straight == Form::cup) return found_cup(contour, middle, height);
+    }
+    const Contour contour = contour_of(mask, smoothing * height);
+    const TracedAxis rough = sound_axis(contour, drawn);
+    if (form != Form::automatic) return found_on(contour, drawn, rough, height, form);
+    const Form chosen = chosen_form(on_straight, likely_form(contour, rough, height));
+    try {
+        return found_on(contour, drawn, rough, height, chosen);
+    } catch (const InvalidInput&) {
+        if (chosen != Form::capped) throw;
+    }
+    // What looked like a cap has no stem.
+    return found_on(contour, drawn, rough, height, Form::puffball);
+}
+
+struct FittedProfile {
+    Profile profile;
+    FittedShape shape;
+    bool has_plain_stem = false;
+};
+
+/// Replaces a stem by one that is nearly as wide below as above.
+void make_stem_plain(Profile& profile) {
+    constexpr double below = 0.9;  // of the radius above
+    const glm::dvec2 top = profile.stem.back();
+    profile.stem = {{below * top.x, 0.0}, {0.5 * (below + 1.0) * top.x, 0.5 * top.y}, top};
+    profile.has_foot = false;
+}
+
+/// Returns the profile and its spline. If the outline would touch itself, a hollow is less deep than stated, and
+/// last the stem is a plain one.
+FittedProfile fitted_profile(const Contour& contour, const TracedAxis& axis, const Marks& marks,
+                             double height, const TraceParams& params) {
+    constexpr double least_hollow = 0.1;
+    FittedProfile found;
+    for (double hollow = params.hollow;;) {
+        found.profile = profile_of(contour, axis, marks, height, hollow);
+        if (found.has_plain_stem) make_stem_plain(found.profile);
+        try {
+            found.shape = fitted_shape(found.profile, axis, marks, height, params.height_m);
+            // The rings of all levels of detail stay apart too.
+            static_cast<void>(MorphSet({{found.shape.silhouette, params.height_m, 0, 0.6}}));
+            return found;
+        } catch (const Impossible&) {
+            if (is_hollow(marks.form) && hollow >= least_hollow) {
+                hollow *= 0.5;
+            } else if (!found.has_plain_stem) {
+                found.has_plain_stem = true;
+                hollow = params.hollow;
+            } else {
+                throw;
+            }
+        }
+    }
+}
+
 }  // namespace
 
-Traced traced(const Mask& mask, const Gesture& gesture, double height_m) {
+Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& params) {
+    require_valid(params);
     const Extent extent = extent_of(mask);
     require_whole(mask, extent);
     const double height = extent.bottom - extent.top + 1.0;
-    const Contour contour = contour_of(mask, smoothing * height);
-    // The first axis tells where the stem ends; middles in the cap then do not count.
-    const TracedAxis rough = axis_of(contour, gesture.axis);
-    const Marks of_rough = marks_of(contour, rough, height);
-    const TracedAxis axis = axis_of(contour, gesture.axis, rough.at(of_rough.stem_top));
-    const Marks marks = marks_of(contour, axis, height);
-    const Profile profile = profile_of(contour, axis, marks, height);
-    const FittedShape fitted = fitted_shape(profile, axis, marks, height, height_m);
+    const auto [contour, axis, marks] = found_in(mask, gesture.axis, height, params.form);
+    const auto [profile, fitted, has_plain_stem] =
+        fitted_profile(contour, axis, marks, height, params);
 
     Traced found;
+    found.form = marks.form;
     found.shape.silhouette = fitted.silhouette;
     found.shape.axis = fitted.axis;
     found.error = fitted.error;
     found.asymmetry = profile.asymmetry;
     const std::vector<AxisPoint> measured = found.shape.axis;
     found.shape.axis = unfolded(measured, found.shape.silhouette);
-    if (found.shape.axis != measured) found.method = TraceMethod::straightened;
+    if (has_plain_stem)
+        found.method = TraceMethod::simplified;
+    else if (found.shape.axis != measured)
+        found.method = TraceMethod::straightened;
     const std::vector<AxisPoint>& points = found.shape.axis;
     found.lean_deg = angle_of(points.front(), points.back());
     found.bend_deg = std::abs(angle_of(points[points.size() - 2], points.back()) -
                               angle_of(points[0], points[1]));
-    const double scale = height_m / height;
+    const double scale = params.height_m / height;
     if (profile.ring)
         found.ring = RingMeasure{profile.ring->height * scale, profile.ring->width * scale};
     found.left = marks.sides[0].points;
@@ -98,10 +225,11 @@ Traced traced(const Mask& mask, const Gesture& gesture, double height_m) {
     return found;
 }
 
-Traced traced(const Picture& photo, const Gesture& gesture, double height_m) {
+Traced traced(const Picture& photo, const Gesture& gesture, const TraceParams& params) {
+    require_valid(params);
     const Mask mask = cut_out(photo, gesture);
     const double factor = static_cast<double>(mask.width) / photo.width;
-    Traced found = traced(mask, gesture.scaled(factor), height_m);
+    Traced found = traced(mask, gesture.scaled(factor), params);
     const auto back = [factor](glm::dvec2& point) { point /= factor; };
     for (std::vector<glm::dvec2>* line : {&found.left, &found.right, &found.axis})
         std::for_each(line->begin(), line->end(), back);

@@ -7,15 +7,45 @@
 #include <vector>
 
 #include "core/model/swept.h"
+#include "core/params/describe.h"
 #include "core/trace/contour.h"
+#include "core/trace/form.h"
 #include "core/trace/gesture.h"
 #include "core/trace/photo.h"
 
 namespace sporeprint::trace {
 
+/// What a photograph does not tell.
+struct TraceParams {
+    double height_m = 0.1;
+    Form form = Form::automatic;
+    double hollow = 0.7;
+
+    static constexpr void fields(auto visit) {
+        visit(&TraceParams::height_m, Info{.name = "height_m",
+                                           .unit = "m",
+                                           .min = 0.001,
+                                           .max = 2,
+                                           .doc = "Height of the mushroom from foot to top."});
+        visit(&TraceParams::form,
+              Info{.name = "form",
+                   .doc = "What is looked for: capped (stem and cap), funnel (hollow above, "
+                          "without an angle below), morel (a head on a stem), club, puffball or "
+                          "cup; auto is the form that fits the outline."});
+        visit(&TraceParams::hollow,
+              Info{.name = "hollow",
+                   .min = 0.02,
+                   .max = 0.95,
+                   .doc = "How deep a funnel or cup is, of the height of its edge above its stem: "
+                          "from the side its inside is hidden."});
+    }
+    bool operator==(const TraceParams&) const = default;
+};
+
 /// How the shape came about. fitted: as measured; straightened: the axis bends less than on the photograph,
-/// because the stem would fold.
-enum class TraceMethod { fitted, straightened };
+/// because the stem would fold; simplified: the stem is a plain one, because the outline as measured would cross
+/// itself.
+enum class TraceMethod { fitted, straightened, simplified };
 
 constexpr const char* name(TraceMethod method) {
     switch (method) {
@@ -23,6 +53,8 @@ constexpr const char* name(TraceMethod method) {
             return "fitted";
         case TraceMethod::straightened:
             return "straightened";
+        case TraceMethod::simplified:
+            return "simplified";
     }
     return nullptr;
 }
@@ -35,7 +67,8 @@ struct RingMeasure {
 
 /// A mushroom as it was traced.
 struct Traced {
-    Swept shape;  ///< an outline and an axis; all else is zero
+    Swept shape;               ///< an outline and an axis; all else is zero
+    Form form = Form::capped;  ///< the one that was traced, never Form::automatic
     TraceMethod method = TraceMethod::fitted;
     double error = 0.0;      ///< greatest distance of the outline from the profile, of the height
     double asymmetry = 0.0;  ///< half the mean distance between both sides, of the height
@@ -48,19 +81,20 @@ struct Traced {
     std::array<glm::dvec2, 2> junctions{}, margins{};
 };
 
-/// Traces a mushroom with a stem and a cap, seen from the side.
+/// Traces a mushroom seen from the side.
 ///
-/// height_m  from the foot to the top, metres, more than 0
-/// throws    InvalidInput (paths below "/gesture", "/form") if nothing hangs together on the line, no
-///           cap stands out, or the mushroom is smaller than 120 pixels or cut off by a border of the
-///           photograph (path "/photo"); Impossible (path below "/silhouette") if the outline
+/// throws    InvalidInput (paths "/height_m", "/form", "/hollow", below "/gesture") if a parameter is out
+///           of range, nothing hangs together on the line, or no cap or stem is found that the form
+///           needs; path "/photo" if the mushroom is smaller than 120 pixels or cut off by a
+///           border of the photograph; Impossible (path below "/silhouette") if the outline
 ///           crosses itself
 /// cost      about 0.25 s, nearly all of it for the cut
-[[nodiscard]] Traced traced(const Picture& photo, const Gesture& gesture, double height_m);
+[[nodiscard]] Traced traced(const Picture& photo, const Gesture& gesture,
+                            const TraceParams& params);
 
 /// Traces a mask that is known, such as the alpha channel of a picture.
 ///
 /// gesture  in pixels of the mask
-[[nodiscard]] Traced traced(const Mask& mask, const Gesture& gesture, double height_m);
+[[nodiscard]] Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& params);
 
 }  // namespace sporeprint::trace

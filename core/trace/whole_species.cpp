@@ -43,6 +43,26 @@ std::size_t nearest_stage(const Species& species, double age) {
     return nearest;
 }
 
+/// Requires that a template has the parts of a shape.
+void require_parts(const Species& species, const Silhouette& shape) {
+    const std::string name = "\"" + species.id.string() + "\"";
+    for (const Stage& stage : species.stages) {
+        const auto* swept = std::get_if<Swept>(&stage.model.shape);
+        if (!swept || height_of(swept->silhouette) <= 0.0)
+            throw InvalidInput("/template", name + " has no outline; choose another species");
+        if (swept->silhouette.hymenium.empty() == shape.hymenium.empty()) continue;
+        throw InvalidInput(
+            "/template",
+            shape.hymenium.empty()
+                ? name +
+                      " has a lower face, and what was traced has none; choose another species, "
+                      "or the form capped, funnel or cup"
+                : name +
+                      " has no lower face, and what was traced has one; choose another species, "
+                      "or the form morel, club or puffball");
+    }
+}
+
 std::vector<OutlinePoint>& part_of(Silhouette& silhouette, CurveName curve) {
     return curve == CurveName::stem       ? silhouette.stem
            : curve == CurveName::hymenium ? silhouette.hymenium
@@ -64,6 +84,7 @@ class Change {
           to_outline_(Outline::unproven(to, "/silhouette")),
           size_(height_of(to) / height_of(from)) {
         for (const CurveName curve : curve_names) {
+            if (part_of(to_, curve).empty()) continue;
             // Control points are the ends of the spline's segments.
             std::vector<double>& shares = shares_[static_cast<std::size_t>(curve)];
             shares = to_outline_.of(curve).segment_shares();
@@ -95,8 +116,8 @@ class Change {
             }
         }
         made.stem.front().r = made.cap.back().r = 0.0;
-        made.hymenium.front() = made.stem.back();
-        made.cap.front() = made.hymenium.back();
+        if (!made.hymenium.empty()) made.hymenium.front() = made.stem.back();
+        made.cap.front() = made.hymenium.empty() ? made.stem.back() : made.hymenium.back();
         return made;
     }
 
@@ -149,10 +170,7 @@ Certificate growth_certificate(const Species& species) {
 }
 
 WholeSpecies whole_species(const Species& template_species, const Swept& shape, double age) {
-    if (!can_be_template(template_species))
-        throw InvalidInput("/template", in_quotes(template_species.id.view()) +
-                                            " has no stem, lower face and cap; choose another "
-                                            "species");
+    require_parts(template_species, shape.silhouette);
     WholeSpecies found{template_species, nearest_stage(template_species, age), 1.0, {}};
     const std::vector<Stage>& stages = template_species.stages;
     const Change change(silhouette_of(stages[found.stage]), shape.silhouette);

@@ -39,7 +39,8 @@ struct WholeSpecies {
 /// from the axis and heights are multiplied by the same ratios, less so the farther a stage is in age.
 /// Everything but shapes is the template's.
 ///
-/// template_species  a species whose stages are swept and have a stem, a lower face and a cap
+/// template_species  a species whose stages are swept and have a lower face if the shape has one, none
+///                   otherwise
 /// shape             as of traced()
 /// age               of the photographed mushroom, 0..1
 /// throws            InvalidInput (path "/template") if the template is no such species

@@ -49,14 +49,14 @@ BENCHMARK(photo_of_12_megapixels)->Unit(benchmark::kMillisecond);
 void trace_with_cut(benchmark::State& state) {
     const Picture photo = photograph(2048);
     const trace::Gesture gesture = drawn_of(2048).gesture();
-    for (auto _ : state) benchmark::DoNotOptimize(trace::traced(photo, gesture, 0.1));
+    for (auto _ : state) benchmark::DoNotOptimize(trace::traced(photo, gesture, {0.1}));
 }
 BENCHMARK(trace_with_cut)->Unit(benchmark::kMillisecond);
 
 void trace_of_a_mask(benchmark::State& state) {
     const trace::Mask mask = drawn_of(1024).mask();
     const trace::Gesture gesture = drawn_of(1024).gesture();
-    for (auto _ : state) benchmark::DoNotOptimize(trace::traced(mask, gesture, 0.1));
+    for (auto _ : state) benchmark::DoNotOptimize(trace::traced(mask, gesture, {0.1}));
 }
 BENCHMARK(trace_of_a_mask)->Unit(benchmark::kMillisecond);
 

@@ -33,7 +33,7 @@ int main() {
         trace::reduced(trace::decoded_photo(photograph, "/photo").picture, trace::large_side);
     const trace::Gesture gesture{{{445, 720}, {390, 90}}, {{150, 130}, {680, 90}}, {}, {}, {}};
     const trace::Mask mask = trace::cut_out(photo, gesture);
-    const trace::Traced traced = trace::traced(mask, gesture, 0.08);
+    const trace::Traced traced = trace::traced(mask, gesture, {0.08});
 
     // All other stages are those of the species that it looks like.
     const NearSpecies nearest = NearestSpecies(*atlas).find(trace::likeness_of(photo, mask), 1)[0];

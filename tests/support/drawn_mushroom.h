@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/trace/form.h"
 #include "core/trace/gesture.h"
 #include "core/trace/photo.h"
 
@@ -90,5 +91,85 @@ inline trace::Mask filled(const std::vector<glm::dvec2>& polygon, int width, int
 }
 
 inline trace::Mask DrawnMushroom::mask() const { return filled(outline(), side, side); }
+
+/// A mushroom of unit height with a straight axis, of any form.
+struct DrawnForm {
+    trace::Form form = trace::Form::club;
+    /// Distance from the axis and height: from the foot to the apex, or to the edge that hides the rest.
+    std::vector<glm::dvec2> half;
+    double stem_top = 0.0;  ///< height at which its stem ends; 0 where that is a matter of taste
+    double lean_deg = 0.0;  ///< to the right
+    double pixels = 600.0;  ///< of a unit
+    int side = 1000;        ///< of the photograph
+
+    [[nodiscard]] glm::dvec2 at(const glm::dvec2& local) const {
+        const double turn = radians(lean_deg);
+        const glm::dvec2 up(std::sin(turn), -std::cos(turn)), right(-up.y, up.x);
+        return glm::dvec2(0.5, 0.85) * static_cast<double>(side) +
+               pixels * (local.x * right + local.y * up);
+    }
+    [[nodiscard]] trace::Mask mask() const {
+        std::vector<glm::dvec2> polygon;
+        for (const glm::dvec2& point : half) polygon.push_back(at({-point.x, point.y}));
+        for (std::size_t i = half.size(); i-- > 0;) polygon.push_back(at(half[i]));
+        return filled(polygon, side, side);
+    }
+    [[nodiscard]] trace::Gesture gesture() const {
+        trace::Gesture made;
+        for (const double height : {0.03, 0.5, 0.95}) made.axis.push_back(at({0.0, height}));
+        return made;
+    }
+};
+
+/// Returns a mushroom of a form.
+///
+/// form  funnel, morel, club, puffball or cup
+inline DrawnForm drawn_form(trace::Form form) {
+    DrawnForm drawn;
+    drawn.form = form;
+    const auto add = [&](double r, double y) { drawn.half.emplace_back(r, y); };
+    constexpr int steps = 60;
+    // The last part is a quarter of an ellipse up to the apex.
+    const auto dome = [&](double r, double from) {
+        for (int k = 0; k <= steps; ++k) {
+            const double angle = 0.5 * pi * k / steps;
+            add(r * std::cos(angle), from + (1.0 - from) * std::sin(angle));
+        }
+    };
+    add(0.0, 0.0);
+    for (int k = 0; k <= steps; ++k) {
+        const double t = static_cast<double>(k) / steps, smooth = t * t * (3.0 - 2.0 * t);
+        switch (form) {
+            case trace::Form::funnel:
+                if (k == 0) add(0.09, 0.0);
+                add(0.09 + 0.33 * t * t, 0.5 + 0.5 * t);
+                break;
+            case trace::Form::cup:
+                if (k == 0) add(0.12, 0.0);
+                add(0.12 + 0.62 * std::sin(0.5 * pi * t),
+                    0.12 + 0.88 * (1.0 - std::cos(0.5 * pi * t)));
+                break;
+            case trace::Form::puffball:
+                if (k == 0) add(0.16, 0.0);
+                add(0.16 + 0.18 * smooth, 0.2 + 0.42 * t);
+                break;
+            case trace::Form::morel:
+                add(0.15 - 0.03 * t, 0.4 * t);
+                break;
+            default:
+                add(0.05 + 0.06 * smooth, 0.88 * t);
+        }
+    }
+    if (form == trace::Form::funnel) drawn.stem_top = 0.6;
+    if (form == trace::Form::cup) drawn.stem_top = 0.14;
+    if (form == trace::Form::puffball) drawn.stem_top = 0.3;
+    if (form == trace::Form::morel) {
+        drawn.stem_top = 0.4;
+        dome(0.24, 0.41);
+    }
+    if (form == trace::Form::puffball) dome(0.34, 0.62);
+    if (form == trace::Form::club) dome(0.11, 0.88);
+    return drawn;
+}
 
 }  // namespace sporeprint

@@ -68,5 +68,21 @@ TEST(AxisOf, IsNotMovedByARing) {
     EXPECT_LT(error_of(drawn, drawn.gesture().axis), 0.008);
 }
 
+TEST(StraightAxis, GoesFromTheFootThroughTheMiddleHoweverALineWasDrawn) {
+    for (const double lean : {-15.0, 0.0, 10.0}) {
+        DrawnForm drawn = drawn_form(trace::Form::cup);
+        drawn.lean_deg = lean;
+        drawn.pixels = 400.0;
+        const trace::Contour contour = trace::contour_of(drawn.mask(), 1.0);
+        // The line ends at the edge instead of the middle.
+        const TracedAxis axis =
+            trace::straight_axis(contour, {drawn.at({0.0, 0.1}), drawn.at({0.6, 0.95})});
+        const glm::dvec2 along = axis.tangent(0.0);
+        EXPECT_NEAR(arc_tangent(along.x, -along.y) * 180.0 / pi, lean, 4.0);
+        EXPECT_LT(glm::length(axis.at(0.0) - drawn.at({0.0, 0.0})), 0.06 * drawn.pixels) << lean;
+        EXPECT_NEAR(axis.length() / drawn.pixels, 1.0, 0.03) << lean;
+    }
+}
+
 }  // namespace
 }  // namespace sporeprint::trace_axis_test

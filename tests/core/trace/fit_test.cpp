@@ -14,9 +14,9 @@ trace::FittedShape fitted(const DrawnMushroom& drawn, double height_m) {
     const trace::Contour contour = trace::contour_of(drawn.mask(), 0.0028 * drawn.pixels);
     const trace::TracedAxis axis =
         trace::axis_of(contour, drawn.gesture().axis, drawn.axis(drawn.stem_top));
-    const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels);
-    return trace::fitted_shape(trace::profile_of(contour, axis, marks, drawn.pixels), axis, marks,
-                               drawn.pixels, height_m);
+    const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels, trace::Form::capped);
+    return trace::fitted_shape(trace::profile_of(contour, axis, marks, drawn.pixels, 0.7), axis,
+                               marks, drawn.pixels, height_m);
 }
 
 TEST(FittedShape, StaysNearTheProfileWithFewPoints) {

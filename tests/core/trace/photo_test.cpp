@@ -84,6 +84,23 @@ TEST(Masks, LoseSpursThatAreThinnerThanThreePixels) {
               mask_of({"###..", "###..", "###..", "....."}));
 }
 
+RC_GTEST_PROP(Masks, OpenedAreTheUnionOfTheSquaresInside, ()) {
+    const Mask mask = any_mask();
+    const int reach = *rc::gen::inRange(1, 4);
+    Mask expected(mask.width, mask.height);
+    const auto square = [&](int x, int y, const auto& visit) {
+        for (int v = y - reach; v <= y + reach; ++v)
+            for (int u = x - reach; u <= x + reach; ++u) visit(u, v);
+    };
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            bool all = true;
+            square(x, y, [&](int u, int v) { all = all && mask.at(u, v); });
+            if (all) square(x, y, [&](int u, int v) { expected.inside[expected.index(u, v)] = 1; });
+        }
+    RC_ASSERT(trace::opened(mask, reach) == expected);
+}
+
 RC_GTEST_PROP(Masks, AreWithinOrAroundWhatTheyCameFrom, ()) {
     const Mask mask = any_mask(), seeds = [&] {
         Mask other = mask;

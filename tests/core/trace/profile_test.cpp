@@ -14,8 +14,8 @@ trace::Profile profile_of(const DrawnMushroom& drawn, const trace::Mask& mask) {
     const trace::Contour contour = trace::contour_of(mask, 0.0028 * drawn.pixels);
     const trace::TracedAxis axis =
         trace::axis_of(contour, drawn.gesture().axis, drawn.axis(drawn.stem_top));
-    const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels);
-    return trace::profile_of(contour, axis, marks, drawn.pixels);
+    const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels, trace::Form::capped);
+    return trace::profile_of(contour, axis, marks, drawn.pixels, 0.7);
 }
 
 /// Returns the mask of a drawn mushroom with a disc at a place.
@@ -89,6 +89,41 @@ TEST(Profile, KnowsHowUnlikeBothSidesAre) {
     const glm::dvec2 bulge = drawn.axis(0.8) + glm::dvec2(0.3 * drawn.pixels, 0.0);
     const trace::Profile profile = profile_of(drawn, with_disc(drawn, bulge, 0.1));
     EXPECT_GT(profile.asymmetry, even + 0.002);
+}
+
+TEST(Profile, OfAFunnelHasAHollowOfTheStatedDepth) {
+    const DrawnForm drawn = drawn_form(trace::Form::funnel);
+    const trace::Contour contour = trace::contour_of(drawn.mask(), 0.0028 * drawn.pixels);
+    const trace::TracedAxis axis = trace::straight_axis(contour, drawn.gesture().axis);
+    const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels, trace::Form::funnel);
+    for (const double hollow : {0.2, 0.5, 0.9}) {
+        const trace::Profile profile =
+            trace::profile_of(contour, axis, marks, drawn.pixels, hollow);
+        ASSERT_LT(profile.seen, profile.cap.size());
+        const double edge = profile.cap[profile.seen - 1].y, stem = profile.face.front().y;
+        EXPECT_NEAR((edge - profile.cap.back().y) / (edge - stem), hollow, 1e-9);
+        EXPECT_EQ(profile.cap.back().x, 0.0);
+        // The wall is inside the outer face at every height.
+        for (std::size_t i = profile.seen; i < profile.cap.size(); ++i)
+            for (std::size_t k = 0; k + 1 < profile.face.size(); ++k)
+                if (profile.face[k].y <= profile.cap[i].y &&
+                    profile.cap[i].y < profile.face[k + 1].y) {
+                    EXPECT_LT(profile.cap[i].x, profile.face[k + 1].x) << hollow;
+                }
+    }
+}
+
+TEST(Profile, OfAHeadHasNoFace) {
+    for (const trace::Form form : {trace::Form::club, trace::Form::puffball}) {
+        const DrawnForm drawn = drawn_form(form);
+        const trace::Contour contour = trace::contour_of(drawn.mask(), 0.0028 * drawn.pixels);
+        const trace::TracedAxis axis = trace::straight_axis(contour, drawn.gesture().axis);
+        const trace::Profile profile = trace::profile_of(
+            contour, axis, trace::marks_of(contour, axis, drawn.pixels, form), drawn.pixels, 0.7);
+        EXPECT_TRUE(profile.face.empty());
+        EXPECT_EQ(profile.cap.front(), profile.stem.back());
+        EXPECT_EQ(profile.seen, profile.cap.size());
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "core/grow/mushroom.h"
 #include "core/mesh/measure.h"
+#include "core/silhouette/outline.h"
 #include "tests/support/atlas.h"
 #include "tests/support/drawn_mushroom.h"
 #include "tests/support/effort.h"
@@ -27,7 +29,7 @@ TEST(Traced, HasTheLeanAndTheBendOfThePhotograph) {
             DrawnMushroom drawn;
             drawn.bend_deg = bend;
             drawn.lean_deg = lean - 0.5 * bend;
-            const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), 0.1);
+            const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), {0.1});
             EXPECT_EQ(found.method, trace::TraceMethod::fitted);
             EXPECT_NEAR(found.lean_deg, lean, 2.0) << bend;
             EXPECT_NEAR(found.bend_deg, bend, 6.0) << lean;
@@ -36,7 +38,7 @@ TEST(Traced, HasTheLeanAndTheBendOfThePhotograph) {
 
 TEST(Traced, MarksThePhotographInItsOwnPixels) {
     const DrawnMushroom drawn;
-    const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), 0.1);
+    const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), {0.1});
     EXPECT_LT(found.margins[0].x, found.junctions[0].x);
     EXPECT_LT(found.junctions[0].x, found.junctions[1].x);
     EXPECT_LT(found.junctions[1].x, found.margins[1].x);
@@ -55,7 +57,7 @@ TEST(Traced, BendsAStemLessThatWouldFold) {
     drawn.bend_deg = 70.0;
     drawn.lean_deg = -35.0;
     drawn.cap_radius = 0.42;
-    EXPECT_EQ(trace::traced(drawn.mask(), drawn.gesture(), 0.1).method,
+    EXPECT_EQ(trace::traced(drawn.mask(), drawn.gesture(), {0.1, trace::Form::capped}).method,
               trace::TraceMethod::straightened);
 }
 
@@ -64,12 +66,86 @@ TEST(Traced, RefusesWhatIsTooSmallOrCutOff) {
     drawn.pixels = 80.0;
     const auto problems_of = [&] {
         return refusal(
-            [&] { static_cast<void>(trace::traced(drawn.mask(), drawn.gesture(), 0.1)); });
+            [&] { static_cast<void>(trace::traced(drawn.mask(), drawn.gesture(), {0.1})); });
     };
     EXPECT_TRUE(names(problems_of(), "/photo", "at least 120"));
     drawn.pixels = 700.0;
     drawn.lean_deg = 60.0;
     EXPECT_TRUE(names(problems_of(), "/photo", "cut off by the right border"));
+}
+
+/// Returns the forms that are not capped.
+std::vector<trace::Form> other_forms() {
+    return {trace::Form::funnel, trace::Form::morel, trace::Form::club, trace::Form::puffball,
+            trace::Form::cup};
+}
+
+/// Returns how high a drawn mushroom is on its picture, in its own units.
+double height_of(const DrawnForm& drawn) {
+    double highest = 0.0, lowest = drawn.side;
+    for (const glm::dvec2& point : drawn.half)
+        for (const double side : {-1.0, 1.0}) {
+            const double y = drawn.at({side * point.x, point.y}).y;
+            highest = std::max(highest, y);
+            lowest = std::min(lowest, y);
+        }
+    return (highest - lowest) / drawn.pixels;
+}
+
+TEST(Traced, HasTheOutlineOfADrawnForm) {
+    for (const trace::Form form : other_forms())
+        for (const double lean : {0.0, 7.0}) {
+            DrawnForm drawn = drawn_form(form);
+            drawn.lean_deg = lean;
+            if (form == trace::Form::cup) drawn.pixels = 450.0;
+            // The stated height is that of the picture, from the lowest to the highest place.
+            const double height_m = height_of(drawn);
+            const trace::Traced found =
+                trace::traced(drawn.mask(), drawn.gesture(), {height_m, form, 0.5});
+            EXPECT_EQ(found.form, form);
+            EXPECT_NEAR(found.lean_deg, lean, 3.0) << trace::name(form);
+            const Silhouette& made = found.shape.silhouette;
+            EXPECT_EQ(made.hymenium.empty(), !trace::has_face(form));
+            const Outline outline(made);
+            for (const CurveName curve : curve_names) {
+                if (outline.of(curve).empty()) continue;
+                // From the side the inside of a hollow is not seen.
+                if (curve == CurveName::cap && trace::is_hollow(form)) continue;
+                for (int k = 0; k <= 40; ++k) {
+                    const OutlineSample at = outline.of(curve).at(k / 40.0);
+                    if (at.y < 0.05) continue;  // the root
+                    double away = 1.0;
+                    for (std::size_t i = 0; i + 1 < drawn.half.size(); ++i)
+                        away = std::min(away, trace::distance_from_segment(
+                                                  {at.r, at.y}, drawn.half[i], drawn.half[i + 1]));
+                    EXPECT_LT(away, 0.02) << trace::name(form) << lean << ' ' << name(curve) << k;
+                }
+            }
+        }
+}
+
+TEST(Traced, IsOfTheFormThatFitsUnlessOneIsStated) {
+    for (const trace::Form form : other_forms()) {
+        DrawnForm drawn = drawn_form(form);
+        if (form == trace::Form::cup) drawn.pixels = 450.0;
+        // A head on a stem may be a closed cap as well.
+        EXPECT_EQ(trace::traced(drawn.mask(), drawn.gesture(), {}).form,
+                  form == trace::Form::morel ? trace::Form::capped : form);
+    }
+    const DrawnMushroom capped;
+    EXPECT_EQ(trace::traced(capped.mask(), capped.gesture(), {}).form, trace::Form::capped);
+}
+
+TEST(Traced, NamesWhatItDoesNotFind) {
+    DrawnMushroom drawn;
+    drawn.cap_radius = drawn.stem_radius;
+    const auto problems_of = [&](const trace::TraceParams& params) {
+        return refusal(
+            [&] { static_cast<void>(trace::traced(drawn.mask(), drawn.gesture(), params)); });
+    };
+    EXPECT_TRUE(names(problems_of({0.1, trace::Form::capped}), "/form", "no cap found: choose"));
+    EXPECT_TRUE(names(problems_of({0.0}), "/height_m", "0.001"));
+    EXPECT_TRUE(names(problems_of({0.1, trace::Form::cup, 1.5}), "/hollow", "0.95"));
 }
 
 RC_GTEST_PROP(Traced, AnyMaskAndLineIsTracedOrRefusedByName, ()) {
@@ -89,8 +165,11 @@ RC_GTEST_PROP(Traced, AnyMaskAndLineIsTracedOrRefusedByName, ()) {
     const trace::Mask part = trace::without_holes(
         trace::connected_with(mask, trace::drawn({gesture.axis}, 200, 200, 3.0)));
     RC_PRE(part.area() > 0);
+    const auto form = static_cast<trace::Form>(*rc::gen::inRange(0, 7));
     try {
-        const trace::Traced found = trace::traced(part, gesture, 0.1);
+        const trace::Traced found = trace::traced(part, gesture, {0.1, form});
+        RC_ASSERT(found.form != trace::Form::automatic);
+        RC_ASSERT(form == trace::Form::automatic || found.form == form);
         for (const OutlinePoint& point : found.shape.silhouette.cap)
             RC_ASSERT(std::isfinite(point.r) && std::isfinite(point.y) && point.r >= 0.0);
         for (const AxisPoint& point : found.shape.axis)
@@ -125,8 +204,8 @@ double distance(const trace::Contour& from, const trace::Contour& to) {
 
 /// Returns the mean distance between the border of a mask and that of the model traced from it, of the
 /// height. The pictures of both are fitted to them, so that one is first scaled and moved to the other.
-double round_trip_error(const std::string& species, const Photograph& photo) {
-    const trace::Traced found = trace::traced(photo.truth, photo.gesture, 0.1);
+double round_trip_error(const std::string& species, const Photograph& photo,
+                        const trace::Traced& found) {
     const trace::Contour truth = trace::contour_of(photo.truth, 0.0);
     trace::Contour own =
         trace::contour_of(silhouette_of(model_of(species, found), View::front, 1024), 0.0);
@@ -162,13 +241,42 @@ TEST(Traced, GrowsIntoTheSilhouetteOfThePhotograph) {
     double mean = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::string& id = species[i % species.size()];
-        const double error = round_trip_error(
-            id, photograph({id, 0.7, static_cast<std::uint32_t>(7 + i), View::front, 1024},
-                           Scenery::plain));
+        const Photograph photo = photograph(
+            {id, 0.7, static_cast<std::uint32_t>(7 + i), View::front, 1024}, Scenery::plain);
+        const double error =
+            round_trip_error(id, photo, trace::traced(photo.truth, photo.gesture, {0.1}));
         EXPECT_LT(error, 0.016) << id << " of seed " << 7 + i;
         mean += error / static_cast<double>(count);
     }
     EXPECT_LT(mean, 0.008);
+}
+
+TEST(Traced, OfOtherFormsGrowsIntoTheSilhouetteOfThePhotograph) {
+    struct Case {
+        const char* species;
+        trace::Form form;
+        double most;  ///< of the error
+    };
+    const std::vector<Case> cases = {
+        {"clavariadelphus_pistillaris", trace::Form::club, 0.008},
+        {"cantharellus_cibarius", trace::Form::funnel, 0.024},
+        {"lycoperdon_perlatum", trace::Form::puffball, 0.01},
+        {"cyathus_striatus", trace::Form::cup, 0.022},
+        {"morchella_esculenta", trace::Form::morel, 0.014},
+        {"infundibulicybe_gibba", trace::Form::funnel, 0.018},
+        {"sarcoscypha_austriaca", trace::Form::cup, 0.05},
+        {"craterellus_cornucopioides", trace::Form::funnel, 0.022},
+    };
+    const std::size_t count = effort(16, 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Case& one = cases[i % cases.size()];
+        const Photograph photo =
+            photograph({one.species, 0.7, static_cast<std::uint32_t>(7 + i), View::front, 640},
+                       Scenery::plain);
+        const trace::Traced found = trace::traced(photo.truth, photo.gesture, {0.1, one.form});
+        EXPECT_LT(round_trip_error(one.species, photo, found), one.most)
+            << one.species << " of seed " << 7 + i;
+    }
 }
 
 TEST(Traced, IsAModelThatGrowsAtEveryLevel) {
@@ -181,7 +289,7 @@ TEST(Traced, IsAModelThatGrowsAtEveryLevel) {
         const std::string& id = species[i % species.size()];
         const Photograph photo = photograph(
             {id, 0.7, static_cast<std::uint32_t>(i + 3), View::front, 1024}, Scenery::plain);
-        const trace::Traced found = trace::traced(photo.picture, photo.gesture, 0.1);
+        const trace::Traced found = trace::traced(photo.picture, photo.gesture, {0.1});
         EXPECT_LE(found.error, 0.016) << id;
         for (int lod = 0; lod < 4; ++lod) {
             MushroomSpec spec;
