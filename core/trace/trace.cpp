@@ -161,7 +161,7 @@ void make_stem_plain(Profile& profile) {
 /// last the stem is a plain one.
 FittedProfile fitted_profile(const Contour& contour, const TracedAxis& axis, const Marks& marks,
                              double height, const TraceParams& params) {
-    constexpr double least_hollow = 0.1;
+    constexpr double last_hollow = 0.1;
     FittedProfile found;
     for (double hollow = params.hollow;;) {
         found.profile = profile_of(contour, axis, marks, height, hollow);
@@ -172,7 +172,7 @@ FittedProfile fitted_profile(const Contour& contour, const TracedAxis& axis, con
             static_cast<void>(MorphSet({{found.shape.silhouette, params.height_m, 0, 0.6}}));
             return found;
         } catch (const Impossible&) {
-            if (is_hollow(marks.form) && hollow >= least_hollow) {
+            if (is_hollow(marks.form) && hollow >= last_hollow) {
                 hollow *= 0.5;
             } else if (!found.has_plain_stem) {
                 found.has_plain_stem = true;

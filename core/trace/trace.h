@@ -15,6 +15,9 @@
 
 namespace sporeprint::trace {
 
+/// How deep a hollow may be.
+inline constexpr double least_hollow = 0.02, most_hollow = 0.95;
+
 /// What a photograph does not tell.
 struct TraceParams {
     double height_m = 0.1;
@@ -34,8 +37,8 @@ struct TraceParams {
                           "cup; auto is the form that fits the outline."});
         visit(&TraceParams::hollow,
               Info{.name = "hollow",
-                   .min = 0.02,
-                   .max = 0.95,
+                   .min = least_hollow,
+                   .max = most_hollow,
                    .doc = "How deep a funnel or cup is, of the height of its edge above its stem: "
                           "from the side its inside is hidden."});
     }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -45,7 +47,7 @@ std::size_t nearest_stage(const Species& species, double age) {
 
 /// Requires that a template has the parts of a shape.
 void require_parts(const Species& species, const Silhouette& shape) {
-    const std::string name = "\"" + species.id.string() + "\"";
+    const std::string name = in_quotes(species.id.view());
     for (const Stage& stage : species.stages) {
         const auto* swept = std::get_if<Swept>(&stage.model.shape);
         if (!swept || height_of(swept->silhouette) <= 0.0)
@@ -130,10 +132,11 @@ class Change {
 
 }  // namespace
 
-bool can_be_template(const Species& species) {
-    return std::all_of(species.stages.begin(), species.stages.end(), [](const Stage& stage) {
+bool can_be_template(const Species& species, bool has_face) {
+    return std::all_of(species.stages.begin(), species.stages.end(), [&](const Stage& stage) {
         const auto* swept = std::get_if<Swept>(&stage.model.shape);
-        return swept && !swept->silhouette.hymenium.empty() && height_of(swept->silhouette) > 0.0;
+        return swept && height_of(swept->silhouette) > 0.0 &&
+               swept->silhouette.hymenium.empty() != has_face;
     });
 }
 
@@ -189,6 +192,27 @@ WholeSpecies whole_species(const Species& template_species, const Swept& shape, 
         if (found.likeness == 0.0 || found.certificate.simple) return found;
         found.likeness = found.likeness > 0.1 ? 0.5 * found.likeness : 0.0;
     }
+}
+
+double hollow_of(const Silhouette& silhouette) {
+    double edge = silhouette.hymenium.back().y;
+    for (const OutlinePoint& point : silhouette.cap) edge = std::max(edge, point.y);
+    const double above = edge - silhouette.stem.back().y;
+    return above > 0.0
+               ? std::clamp((edge - silhouette.cap.back().y) / above, least_hollow, most_hollow)
+               : least_hollow;
+}
+
+TraceParams params_like(const Species& species, double age, double height_m) {
+    TraceParams params;
+    params.height_m = height_m;
+    const Stage& stage = species.stages[nearest_stage(species, age)];
+    const std::optional<Form> form = form_of(species.facts.form);
+    const auto* swept = std::get_if<Swept>(&stage.model.shape);
+    if (!form || !swept) return params;
+    params.form = *form;
+    if (is_hollow(*form)) params.hollow = hollow_of(swept->silhouette);
+    return params;
 }
 
 }  // namespace sporeprint::trace

@@ -6,6 +6,7 @@
 #include "core/model/species.h"
 #include "core/model/swept.h"
 #include "core/silhouette/morph_set.h"
+#include "core/trace/trace.h"
 
 namespace sporeprint::trace {
 
@@ -19,19 +20,20 @@ struct WholeSpecies {
     Certificate certificate;  ///< of its outlines from each age to the next
 };
 
-/// Returns true if a species can be the template of a whole species: all its stages are swept and have a stem,
-/// a lower face and a cap.
-[[nodiscard]] bool can_be_template(const Species& species);
+/// Returns true if a species can be the template of a whole species: all its stages are swept.
+///
+/// has_face  of what was traced: all stages have a lower face, or none has
+[[nodiscard]] bool can_be_template(const Species& species, bool has_face);
 
 /// Returns the height of the stage that is nearest to an age, metres.
 ///
-/// pre  can_be_template(species)
+/// pre  all stages are swept
 [[nodiscard]] double height_at(const Species& species, double age);
 
 /// Returns what is proven about the outlines of a species on the way from each stage to the next, and from the
 /// first to the last.
 ///
-/// pre  can_be_template(species)
+/// pre  all stages are swept
 [[nodiscard]] Certificate growth_certificate(const Species& species);
 
 /// Returns a species whose stage nearest to an age has a traced shape. All others have the outlines of the
@@ -47,5 +49,15 @@ struct WholeSpecies {
 /// cost              about 10 ms, nearly all of it for the proof
 [[nodiscard]] WholeSpecies whole_species(const Species& template_species, const Swept& shape,
                                          double age);
+
+/// Returns how deep the cap of an outline is, of the height of its edge above its stem: what TraceParams::hollow
+/// says of a traced one, within its range.
+///
+/// silhouette  with a lower face
+[[nodiscard]] double hollow_of(const Silhouette& silhouette);
+
+/// Returns how a mushroom is traced that is to become like a species: with its form, and the hollow of its stage
+/// nearest to an age. Where its form cannot be traced, it is automatic.
+[[nodiscard]] TraceParams params_like(const Species& species, double age, double height_m);
 
 }  // namespace sporeprint::trace

@@ -14,6 +14,7 @@
 #include "core/params/value.h"
 #include "core/trace/trace.h"
 #include "tests/support/atlas.h"
+#include "tests/support/drawn_mushroom.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
 #include "tests/support/photographs.h"
@@ -171,6 +172,26 @@ TEST(WholeSpecies, OfOtherFormsGrowsAtAllAges) {
             }
         }
     }
+}
+
+TEST(WholeSpecies, LendsItsFormAndItsHollowToATrace) {
+    const trace::TraceParams cup =
+        trace::params_like(species_of("sarcoscypha_austriaca"), 0.6, 0.03);
+    EXPECT_EQ(cup.height_m, 0.03);
+    EXPECT_EQ(cup.form, trace::Form::cup);
+    // Its edge is 20 mm high, its stem 6 mm, and its inside goes down to 11 mm.
+    EXPECT_NEAR(cup.hollow, 0.65, 0.05);
+    EXPECT_EQ(trace::params_like(species_of("morchella_esculenta"), 0.6, 0.1).form,
+              trace::Form::morel);
+    EXPECT_EQ(trace::params_like(species_of("ramaria_formosa"), 0.6, 0.1).form,
+              trace::Form::automatic);
+    // A trace has the hollow that was stated.
+    const DrawnForm drawn = drawn_form(trace::Form::funnel);
+    for (const double hollow : {0.3, 0.6})
+        EXPECT_NEAR(trace::hollow_of(trace::traced(drawn.mask(), drawn.gesture(),
+                                                   {0.1, trace::Form::funnel, hollow})
+                                         .shape.silhouette),
+                    hollow, 0.02);
 }
 
 TEST(WholeSpecies, NeedsATemplateWithThePartsOfTheShape) {
