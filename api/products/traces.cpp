@@ -87,7 +87,7 @@ Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
     body.set("asymmetry_pct", percent(traced.asymmetry)).set("error_pct", percent(traced.error));
     body.set("ring", std::move(ring));
     body.set("nearest", named(found.nearest, atlas)).set("template", found.template_id);
-    body.set("method", trace::name(traced.method));
+    body.set("form", trace::name(traced.form)).set("method", trace::name(traced.method));
     body.set("certificate", write(found.whole.certificate));
     body.set("likeness", found.whole.likeness);
     body.set("warnings", std::move(warnings));
@@ -266,9 +266,10 @@ void add_schemas(Value& schemas, const Atlas&) {
              {"template", described(text,
                                     "The species that lends what the photograph does not "
                                     "show.")},
+             {"form", described(text, "capped, funnel, morel, club, puffball or cup.")},
              {"method", described(text,
-                                  "fitted, or straightened: the stem would fold as it is "
-                                  "bent on the photograph.")},
+                                  "fitted; straightened: the stem would fold as it is bent on the "
+                                  "photograph; simplified: the outline would cross itself.")},
              {"certificate", reference("schemas/certificate")},
              {"likeness", described(number,
                                     "How far other ages have the proportions of the "

@@ -33,7 +33,7 @@ auto with_paths_of_spec(Steps steps) {
             const std::string_view path = problem.path;
             if (path.starts_with("/gesture") || path.starts_with("/photo"))
                 problem.path.insert(0, "/views/side");
-            else if (path.starts_with("/form") || path.starts_with("/silhouette"))
+            else if (path.starts_with("/silhouette"))
                 problem.path = "/views/side";
         }
         throw Impossible(std::move(problems));
@@ -83,27 +83,31 @@ trace::Traced scaled(trace::Traced traced, double factor) {
     return traced;
 }
 
-/// Returns true if a species has a stem and a cap in the field's sense, as those have that are traced.
-bool is_capped(const Species& species) {
-    const GrowthForm form = species.facts.form;
-    return form == GrowthForm::agaric || form == GrowthForm::bolete ||
-           form == GrowthForm::chanterelle || form == GrowthForm::tooth;
+/// Returns the species that lends what the photograph does not show, and the age of the mushroom as it would
+/// be one of these: the nearest that is traced by the same form, or else one with the same parts.
+NearSpecies chosen_template(const trace::Form form, const Atlas& atlas,
+                            const std::vector<NearSpecies>& sorted) {
+    const auto first = [&](bool is_alike) {
+        return std::find_if(sorted.begin(), sorted.end(), [&](const NearSpecies& one) {
+            const Species& species = atlas.find(one.id)->species;
+            return trace::can_be_template(species, trace::has_face(form)) &&
+                   (!is_alike || trace::form_of(species.facts.form) == form);
+        });
+    };
+    auto found = first(true);
+    if (found == sorted.end()) found = first(false);
+    if (found == sorted.end())
+        throw InvalidInput(
+            "/template", std::string("no species has the parts of the form ") + trace::name(form));
+    return *found;
 }
 
-/// Returns the species that lends what the photograph does not show, and the age of the mushroom as it would
-/// be one of these.
-NearSpecies chosen_template(const trace::TraceSpec& spec, const Atlas& atlas,
-                            const std::vector<NearSpecies>& sorted) {
-    const bool is_any = spec.template_id.view() == "auto";
-    const auto found = std::find_if(sorted.begin(), sorted.end(), [&](const NearSpecies& one) {
-        if (!is_any) return one.id == spec.template_id.view();
-        const Species& species = atlas.find(one.id)->species;
-        return is_capped(species) && trace::can_be_template(species);
-    });
+/// Returns the template that a request names, and the age of the mushroom as it would be one of these.
+NearSpecies named_template(std::string_view id, const std::vector<NearSpecies>& sorted) {
+    const auto found = std::find_if(sorted.begin(), sorted.end(),
+                                    [&](const NearSpecies& one) { return one.id == id; });
     if (found == sorted.end())
-        throw InvalidInput("/template",
-                           is_any ? "no species has a stem, a lower face and a cap"
-                                  : "there is no species " + in_quotes(spec.template_id.view()));
+        throw InvalidInput("/template", "there is no species " + in_quotes(id));
     return *found;
 }
 
@@ -138,6 +142,10 @@ std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
         warnings.push_back({"method",
                             "Its stem would fold as it is bent on the photograph, so the "
                             "species bends less."});
+    if (found.traced.method == trace::TraceMethod::simplified)
+        warnings.push_back({"method",
+                            "Its outline would cross itself as it is on the photograph, so "
+                            "the species has a plain stem."});
     if (found.whole.likeness < 1.0)
         warnings.push_back({"likeness", "Its other ages have " + percent(found.whole.likeness) +
                                             " of its proportions, or their outlines would cross "
@@ -169,23 +177,30 @@ SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mas
         const Picture large = trace::reduced(photo, trace::large_side);
         SpeciesFromPhoto found;
         found.nearest = nearest.find(trace::likeness_of(large, mask), atlas.entries().size());
-        const NearSpecies chosen = chosen_template(spec, atlas, found.nearest);
+        const bool is_any = spec.template_id.view() == "auto";
+        // Which form it is decides what can be its template.
+        const NearSpecies chosen =
+            is_any ? chosen_template(trace::traced(mask, gesture, {.form = spec.form}).form, atlas,
+                                     found.nearest)
+                   : named_template(spec.template_id, found.nearest);
         found.template_id = chosen.id;
         found.nearest.resize(std::min(found.nearest.size(), most_named));
         const Species& lender = atlas.find(chosen.id)->species;
-        if (!trace::can_be_template(lender))
-            throw InvalidInput("/template", in_quotes(chosen.id) +
-                                                " has no stem, lower face and cap; choose another "
-                                                "species");
-        const double height = spec.height_m.value_or(trace::height_at(lender, chosen.age));
-        const trace::Traced traced = trace::traced(mask, gesture, height);
+        trace::TraceParams params = trace::params_like(lender, chosen.age, 0.1);
+        if (spec.form != trace::Form::automatic) params.form = spec.form;
+        if (spec.hollow) params.hollow = *spec.hollow;
+        const bool has_height = trace::can_be_template(lender, trace::has_face(params.form));
+        params.height_m = spec.height_m.value_or(has_height ? trace::height_at(lender, chosen.age)
+                                                            : params.height_m);
+        const trace::Traced traced = trace::traced(mask, gesture, params);
         found.whole = trace::whole_species(lender, traced.shape, chosen.age);
         trace::give_colours(found.whole.species, found.whole.stage,
                             trace::part_colours(large, mask, traced));
         found.whole.species.id = spec.id;
         found.traced = scaled(traced, 1.0 / factor);
         found.warnings = warnings_of(found);
-        if (spec.images) give_images(found, trace::photo_images(large, mask, traced, height));
+        if (spec.images)
+            give_images(found, trace::photo_images(large, mask, traced, params.height_m));
         return found;
     });
 }

@@ -89,7 +89,8 @@ class CapPlaces {
   public:
     explicit CapPlaces(const Traced& traced)
         : margin_(0.5 * (traced.margins[0] + traced.margins[1])) {
-        if (traced.left.empty() || traced.right.empty()) return;
+        // From the side the inside of a funnel or cup is hidden.
+        if (traced.left.empty() || traced.right.empty() || is_hollow(traced.form)) return;
         const glm::dvec2 up = traced.left.back() - margin_;
         if (glm::dot(up, up) < 1.0) return;
         up_ = up / glm::dot(up, up);

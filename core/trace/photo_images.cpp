@@ -423,7 +423,7 @@ PhotoImages photo_images(const Picture& picture, const Mask& mask, const Traced&
 
     const glm::dvec2 middle = 0.5 * (traced.margins[0] + traced.margins[1]);
     const glm::dvec2 width = traced.margins[1] - traced.margins[0];
-    if (glm::length(width) < 1.0) return images;
+    if (glm::length(width) < 1.0 || is_hollow(traced.form)) return images;
     const glm::dvec2 right = width / glm::length(width), up(right.y, -right.x);
     const OutlinePoint margin = traced.shape.silhouette.cap.front();
     // Both ends of the cap's width are measured, so its own scale is better than that of the axis.

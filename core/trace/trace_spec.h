@@ -10,7 +10,9 @@
 #include "core/params/describe.h"
 #include "core/params/messages.h"
 #include "core/params/types.h"
+#include "core/trace/form.h"
 #include "core/trace/gesture.h"
+#include "core/trace/trace.h"
 
 namespace sporeprint::trace {
 
@@ -98,6 +100,8 @@ struct TraceSpec {
     ViewsSpec views;
     Text<48> template_id{"auto"};
     Text<48> id{"my_mushroom"};
+    Form form = Form::automatic;
+    std::optional<double> hollow;
     std::optional<double> height_m;
     bool images = false;
 
@@ -111,6 +115,17 @@ struct TraceSpec {
                           "ages, the lower face, ornaments, spread. auto: the one that it looks "
                           "like most."});
         visit(&T::id, Info{.name = "id", .most = 48, .doc = "Id of the new species."});
+        visit(&T::form, Info{.name = "form",
+                             .doc = "What is looked for: capped (stem and cap), funnel (hollow "
+                                    "above, without an angle below), morel (a head on a stem), "
+                                    "club, puffball or cup. auto: the form of the template, or the "
+                                    "one that fits the outline."});
+        visit(&T::hollow,
+              Info{.name = "hollow",
+                   .min = least_hollow,
+                   .max = most_hollow,
+                   .doc = "How deep a funnel or cup is, of the height of its edge above "
+                          "its stem; without it as deep as the template."});
         visit(&T::height_m, Info{.name = "height_m",
                                  .unit = "m",
                                  .min = 0.002,

@@ -22,7 +22,7 @@ struct Painted {
     explicit Painted(double lean_deg = 0.0) {
         drawn.lean_deg = lean_deg;
         mask = drawn.mask();
-        traced = trace::traced(mask, drawn.gesture(), 0.1);
+        traced = trace::traced(mask, drawn.gesture(), {.height_m = 0.1});
         picture = {drawn.side, drawn.side, {}};
         picture.rgb.reserve(3 * mask.inside.size());
         const glm::dvec2 up = drawn.up(0.0), foot = drawn.foot();

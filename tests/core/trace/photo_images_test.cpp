@@ -95,7 +95,7 @@ TEST(Fill, OfNothingSeenIsDark) {
 struct Painted {
     DrawnMushroom drawn;
     trace::Mask mask = drawn.mask();
-    trace::Traced traced = trace::traced(mask, drawn.gesture(), 0.1);
+    trace::Traced traced = trace::traced(mask, drawn.gesture(), {.height_m = 0.1});
     Picture picture{drawn.side, drawn.side, {}};
 
     Painted() {

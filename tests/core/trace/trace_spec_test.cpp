@@ -19,7 +19,7 @@ TEST(TraceSpec, IsReadAsItIsWritten) {
     const std::string text =
         R"({"views":{"side":{"photo":"abc","gesture":{"axis":[[1,2],[3,4.5]],"cap":[],)"
         R"("keep":[[[5,6]],[[7,8],[9,10]]],"drop":[],"frame":[10,20,30,40]}}},)"
-        R"("template":"boletus_edulis","id":"mine","height_m":0.1,"images":true})";
+        R"("template":"boletus_edulis","id":"mine","form":"cup","hollow":0.5,"height_m":0.1,"images":true})";
     std::vector<Problem> problems;
     const auto spec = read_json<trace::TraceSpec>(text, problems);
     ASSERT_TRUE(problems.empty());

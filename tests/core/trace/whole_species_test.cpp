@@ -55,9 +55,11 @@ TEST(WholeSpecies, OfItsOwnStageIsTheTemplate) {
     }
 }
 
-TEST(WholeSpecies, IsOfCappedSpeciesAlone) {
-    EXPECT_TRUE(trace::can_be_template(species_of("boletus_edulis")));
-    EXPECT_FALSE(trace::can_be_template(species_of("artomyces_pyxidatus")));
+TEST(WholeSpecies, IsOfSpeciesWithItsParts) {
+    EXPECT_TRUE(trace::can_be_template(species_of("boletus_edulis"), true));
+    EXPECT_FALSE(trace::can_be_template(species_of("artomyces_pyxidatus"), true));
+    EXPECT_FALSE(trace::can_be_template(species_of("boletus_edulis"), false));
+    EXPECT_TRUE(trace::can_be_template(species_of("clavariadelphus_pistillaris"), false));
     const Species& own = species_of("amanita_muscaria");
     EXPECT_EQ(trace::height_at(own, own.stages[3].age + 0.01),
               height_of(shape_of(own.stages[3]).silhouette));
