@@ -151,7 +151,7 @@ Plan plan_trace(RouteCall& call) {
 
     const std::string gesture = side.gesture ? dump(write(*side.gesture)) : std::string();
     const bool is_cut = photo->cut_out || context.store.photos.cut(side.photo, gesture, now);
-    const Cost cost{.base = is_cut ? 80'000U : 400'000U};
+    const Cost cost{.base = (is_cut ? 80'000U : 400'000U) + (spec->images ? 80'000U : 0U)};
     auto run = [spec, photo, gesture, &context](const std::stop_token& stop,
                                                 const Observer& observer,
                                                 const Parallel& parallel) {

@@ -171,6 +171,7 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
     const glm::dvec2 up = 0.5 * (traced.junctions[0] + traced.junctions[1]) - foot;
     std::array<Sample, PartColours::places> quarters;
     std::array<Sample, 2> stem;
+    Sample face;
     for (int y = 0; y < mask.height; ++y)
         for (int x = 0; x < mask.width; ++x) {
             if (!mask.at(x, y) || !is_well_inside(mask, x, y)) continue;
@@ -183,7 +184,9 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
             }
             // The chord of a stem is near enough to its axis to separate its thirds.
             const double share = glm::dot(pixel - foot, up) / std::max(glm::dot(up, up), 1.0);
-            if (share > 2.0 / 3.0 && share < 0.95)
+            if (is_hollow(traced.form) && share > 1.05)
+                face.add(rgb);
+            else if (share > 2.0 / 3.0 && share < 0.95)
                 stem[0].add(rgb);
             else if (share > 0.03 && share < 1.0 / 3.0)
                 stem[1].add(rgb);
@@ -201,6 +204,7 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
     const auto of_stem = [](const Sample& third) { return third.colour(third.commonest_hue()); };
     const std::optional<glm::dvec3> top = of_stem(stem[0]), base = of_stem(stem[1]);
     if (top && base) found.stem = {*top, *base};
+    found.face = face.colour(face.commonest_hue());
     return found;
 }
 
@@ -229,6 +233,14 @@ void give_colours(Species& species, std::size_t stage, const PartColours& colour
             }
             moved(surface.cap.patch_colour, mean);
             moved(surface.damage.faded, mean);
+        }
+        if (colours.face) {
+            const glm::dvec3 difference = *colours.face - lab_of(before.hymenium.colour);
+            HymeniumSurface& hymenium = surface.hymenium;
+            for (Colour* colour : {&hymenium.colour, &hymenium.edge, &hymenium.depth})
+                moved(*colour, difference);
+            if (!colours.cap)
+                for (Colour& colour : surface.cap.ramp) moved(colour, difference);
         }
         if (colours.stem) {
             moved(surface.stem.top, (*colours.stem)[0] - lab_of(before.stem.top));

@@ -21,6 +21,8 @@ struct PartColours {
     std::optional<std::array<glm::dvec3, places>> cap;
     /// Of the upper and the lower third of the stem; none if the photograph shows too little of one.
     std::optional<std::array<glm::dvec3, 2>> stem;
+    /// Of the outer face of a funnel or cup, which hides its inside.
+    std::optional<glm::dvec3> face;
 };
 
 /// Returns the colours of a mushroom as it is photographed: in each place the commonest hue, so that warts and
@@ -32,7 +34,8 @@ struct PartColours {
                                        const Traced& traced);
 
 /// Gives a species the colours of a photograph. The photographed stage has them; those of all others are
-/// changed by the same difference, and so are the colours of patches and of faded skin.
+/// changed by the same difference, and so are the colours of patches and of faded skin. The inside of a
+/// funnel or cup changes by the same difference as its outer face.
 ///
 /// stage  the photographed one
 void give_colours(Species& species, std::size_t stage, const PartColours& colours);

@@ -110,6 +110,29 @@ TEST(GiveColours, PaintsThePhotographedStageAndMovesTheOthers) {
     }
 }
 
+TEST(GiveColours, OfAFunnelAreThoseOfItsOuterFace) {
+    const Species& own = atlas().find("craterellus_cornucopioides")->species;
+    Species species = own;
+    trace::PartColours colours;
+    colours.face = trace::lab_of({220.0, 180.0, 60.0});
+    trace::give_colours(species, 2, colours);
+    const Surface &made = species.stages[2].model.surface, &old = own.stages[2].model.surface;
+    EXPECT_EQ(made.hymenium.colour, (Colour{220, 180, 60}));
+    EXPECT_NE(made.cap.ramp, old.cap.ramp);
+    EXPECT_EQ(made.stem, old.stem);
+}
+
+TEST(PartColours, OfAnOuterFaceAreThereForHollowFormsAlone) {
+    Painted painted;
+    EXPECT_FALSE(trace::part_colours(painted.picture, painted.mask, painted.traced).face);
+    painted.traced.form = trace::Form::funnel;
+    const trace::PartColours found =
+        trace::part_colours(painted.picture, painted.mask, painted.traced);
+    EXPECT_FALSE(found.cap);
+    ASSERT_TRUE(found.face);
+    EXPECT_LT(apart(*found.face, {240.0, 200.0, 60.0}), 1.0);
+}
+
 TEST(GiveColours, OfItselfChangesNothing) {
     const Species& own = atlas().find("amanita_muscaria")->species;
     const Surface& surface = own.stages[3].model.surface;
