@@ -34,7 +34,9 @@ auto with_paths_of_spec(Steps steps) {
             if (path.starts_with("/gesture") || path.starts_with("/photo"))
                 problem.path.insert(0, "/views/side");
             else if (path.starts_with("/silhouette"))
-                problem.path = "/views/side";
+                problem = {"/views/side", "what is on these lines cannot be grown, because " +
+                                              problem.message +
+                                              "; draw them anew, or choose another form"};
         }
         throw Impossible(std::move(problems));
     }

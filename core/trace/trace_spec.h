@@ -55,7 +55,7 @@ struct GestureSpec {
                               .doc = "A rectangle with all of the mushroom in it: x and y of its "
                                      "upper left corner, width and height."});
     }
-    /// Reports too many strokes.
+    /// Reports too many strokes, and a frame without an area.
     void check(const std::string& path, std::vector<Problem>& problems) const {
         const std::size_t strokes =
             (axis.empty() ? 0 : 1) + (cap.empty() ? 0 : 1) + keep.size() + drop.size();
@@ -63,6 +63,8 @@ struct GestureSpec {
             report(problems, path,
                    std::to_string(strokes) + " strokes; at most " + std::to_string(most_strokes) +
                        " are allowed");
+        if (frame && ((*frame)[2] < 1.0 || (*frame)[3] < 1.0))
+            report(problems, path + "/frame", "its width and its height are at least 1");
     }
     bool operator==(const GestureSpec&) const = default;
 };

@@ -45,6 +45,7 @@ TEST(TraceSpec, NamesWhatIsWrong) {
     EXPECT_EQ(first(R"({"axis":[[1,2],[3]]})"), "/views/side/gesture/axis/1");
     EXPECT_EQ(first(R"({"axis":[[1,-2]]})"), "/views/side/gesture/axis/0/1");
     EXPECT_EQ(first(R"({"axes":[]})"), "/views/side/gesture/axes");
+    EXPECT_EQ(first(R"({"frame":[10,10,0,20]})"), "/views/side/gesture/frame");
     std::string strokes;
     for (int i = 0; i < 17; ++i) strokes += i == 0 ? "[[1,1]]" : ",[[1,1]]";
     EXPECT_EQ(first(R"({"keep":[)" + strokes + "]}"), "/views/side/gesture");
