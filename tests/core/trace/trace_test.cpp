@@ -136,6 +136,24 @@ TEST(Traced, IsOfTheFormThatFitsUnlessOneIsStated) {
     EXPECT_EQ(trace::traced(capped.mask(), capped.gesture(), {}).form, trace::Form::capped);
 }
 
+TEST(Traced, HasAPlainStemWhereTheOutlineWouldCrossItself) {
+    // A hammer on a thread, with a splinter.
+    trace::Mask mask(200, 200);
+    const auto add = [&](const trace::Stroke& line, double width) {
+        const trace::Mask one = trace::drawn({line}, 200, 200, width);
+        for (std::size_t i = 0; i < mask.inside.size(); ++i) mask.inside[i] |= one.inside[i];
+    };
+    add({{100, 50}, {100, 159}}, 4.0);
+    add({{67, 43}, {140, 54}}, 33.0);
+    add({{85, 43}, {134, 101}}, 6.0);
+    trace::Gesture gesture;
+    gesture.axis = {{101, 170}, {91, 138}, {108, 105}, {98, 73}, {95, 40}};
+    const trace::Traced found =
+        trace::traced(trace::without_holes(mask), gesture, {0.1, trace::Form::club});
+    EXPECT_EQ(found.method, trace::TraceMethod::simplified);
+    EXPECT_NO_THROW(static_cast<void>(Outline(found.shape.silhouette)));
+}
+
 TEST(Traced, NamesWhatItDoesNotFind) {
     DrawnMushroom drawn;
     drawn.cap_radius = drawn.stem_radius;
@@ -276,6 +294,15 @@ TEST(Traced, OfOtherFormsGrowsIntoTheSilhouetteOfThePhotograph) {
         const trace::Traced found = trace::traced(photo.truth, photo.gesture, {0.1, one.form});
         EXPECT_LT(round_trip_error(one.species, photo, found), one.most)
             << one.species << " of seed " << 7 + i;
+        for (int lod = 0; lod < 4; ++lod) {
+            MushroomSpec spec;
+            spec.model = model_of(one.species, found);
+            spec.params.variation = 0.0;
+            spec.params.lod = lod;
+            spec.params.textures = Textures::none;
+            EXPECT_TRUE(defects(mushroom_mesh(spec, resolve(spec, atlas()))).empty())
+                << one.species << " at level " << lod;
+        }
     }
 }
 
