@@ -44,6 +44,7 @@ struct TraceParams {
     }
     bool operator==(const TraceParams&) const = default;
 };
+static_assert(well_described<TraceParams>());
 
 /// How the shape came about. fitted: as measured; straightened: the axis bends less than on the photograph,
 /// because the stem would fold; simplified: the stem is a plain one, because the outline as measured would cross
