@@ -188,6 +188,15 @@ constexpr Route pages[] = {
      }},
     {.kind = RouteKind::page,
      .method = "GET",
+     .pattern = "/editor",
+     .id = "editor",
+     .summary = "The page that makes a species of a photograph.",
+     .media_type = html,
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->page(call.request, "editor.html");
+     }},
+    {.kind = RouteKind::page,
+     .method = "GET",
      .pattern = "/assets/{name}",
      .id = "asset",
      .summary = "A file of the viewer page.",

@@ -444,6 +444,7 @@ TEST(ServiceAssets, ThePageAndItsFilesAreServed) {
     };
     write_file("index.html", "<!doctype html><title>page</title>");
     write_file("docs.html", "<!doctype html><title>docs</title>");
+    write_file("editor.html", "<!doctype html><title>editor</title>");
     write_file("app-3F9A1C02.js", "let answer = 42;");
     write_file("favicon.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
     write_file(".hidden", "secret");
@@ -465,6 +466,7 @@ TEST(ServiceAssets, ThePageAndItsFilesAreServed) {
     EXPECT_EQ(header(handle(service, get("/assets/favicon.svg")), "Content-Security-Policy"), "");
     EXPECT_NE(text_of(page).find("page"), std::string::npos);
     EXPECT_NE(text_of(handle(service, get("/docs"))).find("docs"), std::string::npos);
+    EXPECT_NE(text_of(handle(service, get("/editor"))).find("editor"), std::string::npos);
     const Response script = handle(service, get("/assets/app-3F9A1C02.js"));
     EXPECT_EQ(header(script, "Content-Type"), "text/javascript; charset=utf-8");
     EXPECT_EQ(header(script, "Cache-Control"), "public, max-age=31536000, immutable");
@@ -493,6 +495,7 @@ TEST_F(ServiceTest, WithoutAPageTheRootGivesAHint) {
     EXPECT_EQ(response.status, 200);
     EXPECT_NE(text_of(response).find("/v1/species"), std::string::npos);
     expect_problem(ask("/docs"), 404);
+    expect_problem(ask("/editor"), 404);
 }
 
 // --- Mushrooms --------------------------------------------------------------------------

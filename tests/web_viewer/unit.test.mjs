@@ -15,6 +15,9 @@ const { outputFiles } = packages("esbuild").buildSync({
             "camera",
             "close_ups",
             "depth_of_field",
+            "designer/findings",
+            "designer/gesture",
+            "designer/service",
             "dom",
             "gallery",
             "history",
@@ -200,7 +203,7 @@ test("a page's query and a canonical path determine the product", () => {
 
 test("all links and requests of the page are relative to its path prefix", () => {
     for (const product of page.products) assert.match(product.path, /^v1\/\w+$/);
-    for (const file of ["index.html", "docs.html"]) {
+    for (const file of ["index.html", "docs.html", "editor.html"]) {
         const text = readFileSync(path.join(root, "web_viewer/src", file), "utf8");
         const links = [...text.matchAll(/(?:href|src)="([^"]*)"/g)].map(([, link]) => link);
         assert.ok(links.length > 3);
@@ -753,13 +756,24 @@ test("each level is drawn from where the one before ends, at the size that it st
 });
 
 test("the views are part of the page's address, and no request has them", () => {
-    const query = "panel=export&solids=hidden&weights=phase&level=2&fov=75&screen=2160" +
+    const query =
+        "panel=export&solids=hidden&weights=phase&level=2&fov=75&screen=2160" +
         "&light=dusk&view=underside&aperture=2.8";
     const view = page.readView(new URLSearchParams(query));
     assert.equal(page.viewQuery(view), `&${query}`);
     assert.deepEqual(page.readView(new URLSearchParams()), page.initialView);
     assert.equal(page.viewQuery(page.initialView), "");
-    for (const wrong of ["panel=x", "weights=sway", "level=-1", "fov=9", "fov=x", "screen=1", "light=neon", "view=behind", "aperture=3"])
+    for (const wrong of [
+        "panel=x",
+        "weights=sway",
+        "level=-1",
+        "fov=9",
+        "fov=x",
+        "screen=1",
+        "light=neon",
+        "view=behind",
+        "aperture=3",
+    ])
         assert.deepEqual(page.readView(new URLSearchParams(wrong)), page.initialView, wrong);
     const settings = new page.Settings(
         page.groupsOf(schema).flatMap(({ fields }) => fields),
@@ -821,7 +835,10 @@ test("a shifted lens leaves what is in focus where it is, and moves what is fart
     camera.updateMatrixWorld();
     const after = [inFocus, behind].map((point) => point.clone().project(camera));
     assert.ok(Math.hypot(after[0].x - before[0].x, after[0].y - before[0].y) < 1e-9);
-    assert.ok(after[1].x > before[1].x && after[1].y < before[1].y, "what is behind follows the lens");
+    assert.ok(
+        after[1].x > before[1].x && after[1].y < before[1].y,
+        "what is behind follows the lens",
+    );
 });
 
 test("a form without a cap has no margin and no underside, a mix has those of its members", () => {
@@ -859,4 +876,130 @@ test("what grows on wood or hangs far below its origin is told from what stands 
     model.add(level);
     assert.equal(woodOf(model), wood);
     assert.equal(hangsOnWall(model, between(-0.1, 1)), true, "a tier high up its trunk");
+});
+
+test("a drawn line keeps its shape with few points, and never has more than the service reads", () => {
+    const wave = Array.from({ length: 400 }, (_, i) => [i, 50 * Math.sin(i / 4)]);
+    const many = page.simplified(wave, 0.5);
+    assert.ok(many.length <= page.mostPoints, `${many.length} points`);
+    assert.deepEqual([many[0], many.at(-1)], [wave[0], wave.at(-1)], "its ends stay");
+    const straight = Array.from({ length: 90 }, (_, i) => [i, 2 * i + (i % 2)]);
+    assert.equal(page.simplified(straight, 2).length, 2);
+    const bent = [...straight, ...straight.map(([x, y]) => [x + 90, 180 - y])];
+    assert.equal(page.simplified(bent, 2).length, 3);
+    assert.deepEqual(page.simplified([], 2), []);
+});
+
+test("a gesture is sent without what was not drawn, its frame as a rectangle", () => {
+    const axis = [
+        [4, 9],
+        [4, 1],
+    ];
+    const drawing = {
+        gesture: page.withStroke(page.nothingDrawn, "axis", axis),
+        template: "auto",
+        heightMm: undefined,
+    };
+    assert.deepEqual(page.orderOf(drawing), { gesture: { axis }, template: "auto" });
+    const framed = page.withStroke(drawing.gesture, "frame", [
+        [9, 2],
+        [1, 12],
+    ]);
+    const order = page.orderOf({ gesture: framed, template: "x", heightMm: 80 });
+    assert.deepEqual(order, {
+        gesture: { axis, frame: [1, 2, 8, 10] },
+        template: "x",
+        height_m: 0.08,
+    });
+    assert.deepEqual(page.orderOf(page.startOfDrawing), { template: "auto" });
+});
+
+test("strokes that correct add up, the two lines are drawn anew", () => {
+    const line = (x) => [
+        [x, 0],
+        [x, 9],
+    ];
+    let gesture = page.nothingDrawn;
+    for (const tool of ["axis", "cap", "keep", "drop"])
+        for (const x of [1, 2]) gesture = page.withStroke(gesture, tool, line(x));
+    assert.deepEqual(gesture.axis, line(2));
+    assert.deepEqual(gesture.keep, [line(1), line(2)]);
+    assert.equal(page.strokeCount(gesture), 6);
+    const moved = page.withPoint(gesture, "drop", [1, 0], [7, 7]);
+    assert.deepEqual(moved.drop, [
+        line(1),
+        [
+            [7, 7],
+            [2, 9],
+        ],
+    ]);
+    assert.deepEqual(gesture.drop, [line(1), line(2)], "the old gesture is as it was");
+    assert.deepEqual(page.withStrokes(gesture, "axis", []).axis, []);
+});
+
+test("the page says which line is missing; what is cut out needs none", () => {
+    const line = [
+        [0, 0],
+        [0, 9],
+    ];
+    const axis = page.withStroke(page.nothingDrawn, "axis", line);
+    assert.equal(page.missingLine(page.nothingDrawn, false), "axis");
+    assert.equal(page.missingLine(axis, false), "cap");
+    assert.equal(page.missingLine(page.withStroke(axis, "cap", line), false), undefined);
+    assert.equal(page.missingLine(page.nothingDrawn, true), undefined);
+    assert.equal(page.missingLine(axis, true), undefined);
+});
+
+test("a pointer of the service finds its place on the designer's page", () => {
+    for (const tool of page.tools)
+        assert.equal(page.placeOf(`/views/side/gesture/${tool}/0/1`), tool);
+    assert.equal(page.placeOf("/views/side"), "photo");
+    assert.equal(page.placeOf("/views/side/photo"), "photo");
+    assert.equal(page.placeOf("/height_m"), "height");
+    assert.equal(page.placeOf("/template"), "template");
+    assert.equal(page.placeOf("/elsewhere"), undefined);
+});
+
+test("points outside of a picture come to its border, as whole pixels", () => {
+    assert.deepEqual(page.inside([-3, 7.6], { width: 10, height: 20 }), [0, 8]);
+    assert.deepEqual(page.inside([10, 20], { width: 10, height: 20 }), [9, 19]);
+});
+
+test("height and cap are read from the outline, and numbers are told with their units", () => {
+    const silhouette = {
+        stem: [
+            { r: 0, y: -0.01 },
+            { r: 0.02, y: 0.08 },
+        ],
+        hymenium: [
+            { r: 0.02, y: 0.08 },
+            { r: 0.05, y: 0.085 },
+        ],
+        cap: [
+            { r: 0.05, y: 0.085 },
+            { r: 0, y: 0.12 },
+        ],
+    };
+    assert.deepEqual(page.sizeOf({ silhouette }), { height: 0.12, cap: 0.1 });
+    assert.equal(page.sizeOf({}), undefined);
+    assert.equal(page.millimetres(0.0123), "12.3 mm");
+    assert.equal(page.millimetres(0.1234), "123 mm");
+    const rows = page.rowsOf({
+        angles: { lean_deg: -2.1, bend_deg: 8 },
+        asymmetry_pct: 1.24,
+        error_pct: 0.4,
+        ring: { height_m: 0.05, width_m: 0.006 },
+        method: "straightened",
+        certificate: { simple: true, method: "monotone" },
+        stage: 0,
+        species: { stages: [{ model: { silhouette } }] },
+    });
+    const values = Object.fromEntries(rows.map(([name, value]) => [name, value]));
+    assert.equal(values.Height, "120 mm");
+    assert.equal(values.Cap, "100 mm across");
+    assert.equal(values.Ring, "50 mm high");
+    assert.equal(values.Asymmetry, "1.2 %");
+    assert.equal(values.Lean, "2° to the left");
+    assert.match(values.Method, /bends less/);
+    assert.match(values.Proof, /never crosses/);
 });

@@ -21,7 +21,8 @@ function acceptChosen(open: (file: File) => void): void {
     });
 }
 
-function acceptDropped(open: (file: File) => void): void {
+/** Calls `open` for each file that is dropped on the page. */
+export function acceptDropped(open: (file: File) => void): void {
     const overlay = byId("drop");
     const carriesFile = (event: DragEvent): boolean =>
         event.dataTransfer?.types.includes("Files") ?? false;

@@ -1,4 +1,5 @@
-// The navigation at the top: one link per product, and one to the morph editor.
+// The navigation at the top: one link per product, one to the morph editor, and one to the page of
+// the designer.
 import { byId, make } from "./dom";
 import { fewestMembers, mostMembers, readShares, sharesText } from "./mix";
 import { mushrooms, products, type Product } from "./products";
@@ -28,6 +29,7 @@ export class ModeLinks {
             byId("modes").append(link);
             if (canMorph) byId("modes").append(this.morphLink);
         }
+        byId("modes").append(make("a", { id: "mode-designer", href: "editor" }, "From a photo"));
         this.morphLink.hidden = !product.canMorph;
         this.mark(this.link(product));
     }

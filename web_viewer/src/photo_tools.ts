@@ -6,7 +6,7 @@ import type { Stage } from "./stage";
 import type { ViewState, ViewStore } from "./view_state";
 
 /** Shows the page and the stage in a light: the style has the colours. */
-function showLight(stage: Stage, name: LightName): void {
+export function showLight(stage: Stage, name: LightName): void {
     const root = document.documentElement;
     root.dataset["light"] = name;
     stage.useLight(name);

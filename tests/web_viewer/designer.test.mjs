@@ -1,0 +1,376 @@
+// Tests of the designer's page in headless Chromium against a running server (SPOREPRINT_URL). The
+// photograph is a picture of the service itself.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { launchBrowser, logEvents, screenshotFolder, serverUrl } from "./support.mjs";
+
+const base = serverUrl();
+
+/** Where the mushroom of the photograph is: its foot, top and both ends of its cap. */
+const foot = [447, 705];
+const top = [405, 42];
+const cap = [
+    [95, 165],
+    [708, 92],
+];
+
+let browser;
+let folder;
+let photograph;
+let cutOut;
+
+before(async () => {
+    folder = await screenshotFolder();
+    browser = await launchBrowser();
+    const picture = async (background) => {
+        const query = `width=800&height=800&view=front&background=${background}`;
+        const response = await fetch(`${base}/v1/mushrooms/russula_emetica.png?${query}`);
+        assert.equal(response.status, 200);
+        return {
+            name: "russula.png",
+            mimeType: "image/png",
+            buffer: Buffer.from(await response.arrayBuffer()),
+        };
+    };
+    [photograph, cutOut] = await Promise.all([picture("grey"), picture("transparent")]);
+});
+
+after(() => browser?.close());
+
+/** Opens the page in a context of its own; `log` has its console messages and requests. */
+async function open(t, options = {}) {
+    const context = await browser.newContext({
+        viewport: { width: 900, height: 640 },
+        reducedMotion: "reduce",
+        ...options,
+    });
+    t.after(() => context.close());
+    const page = await context.newPage();
+    const log = logEvents(page);
+    await page.goto(`${base}/editor`);
+    await at(page, "empty");
+    return { page, log };
+}
+
+/** Waits until the page is empty, ready or failed. */
+function at(page, state) {
+    return page.waitForFunction(
+        (wanted) => document.documentElement.dataset.designer === wanted,
+        state,
+        { timeout: 60_000 },
+    );
+}
+
+async function give(page, file = photograph) {
+    await page.locator("#file").setInputFiles(file);
+    await page.locator("#desk").waitFor();
+    await at(page, "ready");
+}
+
+/** Returns a place of the photograph in pixels of the window. */
+function onScreen(page, point) {
+    return page.evaluate(([x, y]) => {
+        const matrix = document.getElementById("sketch").getScreenCTM();
+        const place = new DOMPoint(x, y).matrixTransform(matrix);
+        return { x: place.x, y: place.y };
+    }, point);
+}
+
+async function stroke(page, from, to) {
+    const [a, b] = [await onScreen(page, from), await onScreen(page, to)];
+    await page.mouse.move(a.x, a.y);
+    await page.mouse.down();
+    await page.mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2);
+    await page.mouse.move(b.x, b.y);
+    await page.mouse.up();
+}
+
+async function drawLines(page) {
+    await stroke(page, foot, top);
+    await stroke(page, ...cap);
+    await at(page, "ready");
+}
+
+const sentence = (page) => page.locator("#sentence").textContent();
+const strokes = (page, tool) => page.locator(`#sketch .strokes .${tool}`).count();
+
+/** Returns left, top, right and bottom of the outline, pixels of the photograph. */
+function outline(page) {
+    return page.locator("#sketch .outline").evaluate((path) => {
+        const { x, y, width, height } = path.getBBox();
+        return [x, y, x + width, y + height];
+    });
+}
+
+function expectNoProblems(log) {
+    assert.deepEqual(log.console, []);
+    assert.deepEqual(log.failed, []);
+}
+
+function expectNear(values, wanted, tolerance) {
+    const off = values.map((value, index) => Math.abs(value - wanted[index]));
+    assert.ok(Math.max(...off) <= tolerance, `${values} is not ${wanted}`);
+}
+
+async function saved(page, button) {
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator(button).click(),
+    ]);
+    return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+}
+
+const traces = (log) => log.requests.filter((url) => url.endsWith("/v1/traces")).length;
+
+test("two lines on a photograph make a species with a model", async (t) => {
+    const { page, log } = await open(t, { viewport: { width: 1400, height: 880 } });
+    assert.match(await page.locator("footer").textContent(), /never for identifying mushrooms/);
+    await give(page);
+    assert.equal(await sentence(page), "Draw from the foot to the top");
+    await stroke(page, foot, top);
+    assert.equal(await sentence(page), "Now across the cap");
+    assert.equal(traces(log), 0, "one line is not enough");
+    await stroke(page, ...cap);
+    await at(page, "ready");
+    expectNear(await outline(page), [88, 40, 714, 715], 25);
+    assert.equal(await page.locator("#sketch .mark").count(), 4);
+    const names = await page.locator("#nearest b").allTextContents();
+    assert.equal(names.length, 5);
+    for (const name of names) assert.match(name, /^looks like our /);
+    const numbers = await page.locator("#found-numbers dt").allTextContents();
+    for (const name of ["Height", "Cap", "Error", "Asymmetry", "Bend", "Method", "Proof"])
+        assert.ok(numbers.includes(name), `${name} of ${numbers}`);
+    const glb = await saved(page, "#download-glb");
+    assert.equal(glb.bytes.toString("latin1", 0, 4), "glTF");
+    const species = JSON.parse((await saved(page, "#download-json")).bytes.toString());
+    assert.equal(glb.name, `${species.id}.glb`);
+    for (const { model } of species.stages) {
+        const response = await fetch(`${base}/v1/mushrooms.glb`, {
+            method: "POST",
+            headers: { "Content-Type": "application/json" },
+            body: JSON.stringify({ model, lod: 3, textures: "none" }),
+        });
+        assert.equal(response.status, 200, "each stage of the species grows");
+        await response.arrayBuffer();
+    }
+    await page.locator("#nearest img").last().scrollIntoViewIfNeeded();
+    await page.waitForFunction(() =>
+        [...document.querySelectorAll("#nearest img")].every((image) => image.complete),
+    );
+    await page.locator("#panel").evaluate((panel) => panel.scrollTo(0, 0));
+    await page.screenshot({ path: path.join(folder, "designer.png") });
+    expectNoProblems(log);
+});
+
+test("another species lends the rest, its height can be chosen, and both can be undone", async (t) => {
+    const { page, log } = await open(t);
+    await give(page);
+    await drawLines(page);
+    const second = page.locator("#nearest button").nth(1);
+    const id = await second.getAttribute("data-species");
+    await second.click();
+    await at(page, "ready");
+    const chosen = page.locator(`#nearest button[data-species="${id}"]`);
+    assert.equal(await chosen.getAttribute("aria-pressed"), "true");
+    await page.locator("#height").fill("50");
+    await page.locator("#height").press("Enter");
+    await at(page, "ready");
+    const height = page.locator("#found-numbers dd").first();
+    assert.match(await height.textContent(), /^(49|50|51) mm$/);
+    const before = traces(log);
+    await page.locator("#undo").click();
+    await at(page, "ready");
+    assert.doesNotMatch(await height.textContent(), /^(49|50|51) mm$/);
+    await page.locator("#undo").click();
+    await at(page, "ready");
+    assert.equal(await page.locator("#template-auto").getAttribute("aria-pressed"), "true");
+    await page.locator("#redo").click();
+    await at(page, "ready");
+    assert.equal(await chosen.getAttribute("aria-pressed"), "true");
+    assert.equal(traces(log), before, "what was traced is at hand again");
+    expectNoProblems(log);
+});
+
+test("strokes correct the outline, and each gesture can be undone and done again", async (t) => {
+    const { page, log } = await open(t);
+    await give(page);
+    await drawLines(page);
+    const whole = await outline(page);
+    await page.locator('#tools [data-tool="keep"]').click();
+    await stroke(page, [440, 500], [450, 640]);
+    await page.locator('#tools [data-tool="drop"]').click();
+    await stroke(page, [700, 700], [600, 730]);
+    await page.locator('#tools [data-tool="frame"]').click();
+    await stroke(page, [40, 10], [760, 740]);
+    await page.locator('#tools [data-tool="axis"]').click();
+    await stroke(page, top, [380, 48]);
+    await at(page, "ready");
+    const drawn = async () => Promise.all(["keep", "drop", "frame"].map((t) => strokes(page, t)));
+    assert.deepEqual(await drawn(), [1, 1, 1]);
+    await page.locator("details.numbers summary").click();
+    const x = page.locator("#point-0-1-0");
+    expectNear([Number(await x.inputValue())], [380], 2);
+    await page.locator("#sketch").focus();
+    for (let step = 0; step < 4; ++step) await page.keyboard.press("Control+z");
+    await at(page, "ready");
+    assert.deepEqual(await drawn(), [0, 0, 0]);
+    assert.deepEqual(await outline(page), whole);
+    for (let step = 0; step < 2; ++step) await page.keyboard.press("Control+z");
+    await at(page, "ready");
+    assert.equal(await strokes(page, "axis"), 0);
+    assert.equal(await page.locator("#undo").isDisabled(), true);
+    assert.equal(await sentence(page), "Draw from the foot to the top");
+    for (let step = 0; step < 6; ++step) await page.keyboard.press("Control+y");
+    await at(page, "ready");
+    assert.deepEqual(await drawn(), [1, 1, 1]);
+    assert.equal(await page.locator("#redo").isDisabled(), true);
+    expectNoProblems(log);
+});
+
+test("the keyboard alone draws both lines, and the table has the same points", async (t) => {
+    const { page, log } = await open(t);
+    page.on("filechooser", (chooser) => chooser.setFiles(photograph));
+    await page.locator("#choose").press("Enter");
+    await at(page, "ready");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "sketch");
+    const go = async ([x, y]) => {
+        const [fromX, fromY] = (await page.locator("#place").textContent()).split(", ").map(Number);
+        for (const [by, keys] of [
+            [x - fromX, ["ArrowLeft", "ArrowRight"]],
+            [y - fromY, ["ArrowUp", "ArrowDown"]],
+        ]) {
+            const key = keys[by > 0 ? 1 : 0];
+            const far = Math.abs(by);
+            for (let n = 0; n < Math.floor(far / 10); ++n)
+                await page.keyboard.press(`Shift+${key}`);
+            for (let n = 0; n < far % 10; ++n) await page.keyboard.press(key);
+        }
+        assert.equal(await page.locator("#place").textContent(), `${x}, ${y}`);
+    };
+    await go(foot);
+    await page.keyboard.press("Enter");
+    await go([420, 500]);
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("Escape");
+    assert.match(await page.locator("#status").textContent(), /taken back; 1 left/);
+    await go(top);
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("Enter");
+    assert.equal(await sentence(page), "Now across the cap");
+    for (const end of cap) {
+        await go(end);
+        await page.keyboard.press("Enter");
+    }
+    await page.keyboard.press("Enter");
+    await at(page, "ready");
+    assert.match(await page.locator("#status").textContent(), /^Traced: .* looks like our /);
+    await page.locator('#tools [data-tool="axis"]').press("Enter");
+    await page.locator("details.numbers summary").press("Enter");
+    const values = await page
+        .locator("#points input")
+        .evaluateAll((all) => all.map((i) => +i.value));
+    assert.deepEqual(values, [...foot, ...top]);
+    await page.locator("#point-0-0-1").fill("700");
+    await page.locator("#point-0-0-1").press("Enter");
+    await at(page, "ready");
+    const d = await page.locator("#sketch .strokes .axis .line").getAttribute("d");
+    assert.match(d, /^M447\.0 700\.0L/);
+    expectNoProblems(log);
+});
+
+test("fingers alone draw, on targets that they can hit", async (t) => {
+    const { page, log } = await open(t, {
+        viewport: { width: 800, height: 1000 },
+        hasTouch: true,
+        isMobile: true,
+    });
+    await give(page);
+    const tap = async (point) => {
+        const { x, y } = await onScreen(page, point);
+        await page.touchscreen.tap(x, y);
+    };
+    await tap(foot);
+    await tap(top);
+    await tap(top);
+    assert.equal(await sentence(page), "Now across the cap");
+    await tap(cap[0]);
+    await page.locator("#take-back").tap();
+    for (const end of cap) await tap(end);
+    await page.locator("#finish").tap();
+    await at(page, "ready");
+    await page.locator("#template-auto").scrollIntoViewIfNeeded();
+    const small = await page
+        .locator("button:visible")
+        .evaluateAll((buttons) =>
+            buttons
+                .filter((button) => button.getBoundingClientRect().height < 44)
+                .map((button) => button.textContent),
+        );
+    assert.deepEqual(small, []);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.equal(wide, 0, "nothing is wider than the window");
+    await page.screenshot({ path: path.join(folder, "designer_800.png"), fullPage: true });
+    expectNoProblems(log);
+});
+
+test("what the service refuses stands beside what it is about, in its words", async (t) => {
+    const { page } = await open(t);
+    const text = { name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no picture") };
+    await page.locator("#file").setInputFiles(text);
+    await at(page, "failed");
+    assert.ok(await page.locator("#welcome-error").textContent());
+    await give(page);
+    await stroke(page, [30, 700], [40, 720]);
+    await stroke(page, [20, 705], [50, 705]);
+    await at(page, "failed");
+    const errors = page.locator("#gesture-errors li");
+    const [first] = await errors.allTextContents();
+    assert.match(first, /^(Foot to top|Across the cap|Photograph) \S/);
+    await page.locator("#sketch").focus();
+    await page.keyboard.press("Control+z");
+    await page.keyboard.press("Control+z");
+    await at(page, "ready");
+    assert.equal(await errors.count(), 0);
+    await drawLines(page);
+    await page.locator("#height").fill("-3");
+    await page.locator("#height").press("Enter");
+    await at(page, "failed");
+    assert.match(await page.locator("#height-error").textContent(), /-0\.003/);
+    assert.equal(await page.locator("#height").getAttribute("aria-invalid"), "true");
+    await page.locator("#height").fill("");
+    await page.locator("#height").press("Enter");
+    await at(page, "ready");
+    assert.equal(await page.locator("#height-error").isVisible(), false);
+});
+
+test("a photograph that the service has forgotten is sent again by itself", async (t) => {
+    const { page, log } = await open(t);
+    const [stored] = await Promise.all([
+        page.waitForResponse((response) => response.url().endsWith("/v1/photos")),
+        give(page),
+    ]);
+    const { photo } = await stored.json();
+    const gone = await fetch(`${base}/v1/photos/${photo}.jpg`, { method: "DELETE" });
+    assert.equal(gone.status, 204);
+    await drawLines(page);
+    assert.equal(await page.locator("#sketch .outline").count(), 1);
+    assert.equal(log.requests.filter((url) => url.endsWith("/v1/photos")).length, 2);
+});
+
+test("a picture that is cut out already is traced without a line", async (t) => {
+    const { page, log } = await open(t);
+    await give(page, cutOut);
+    assert.equal(traces(log), 1);
+    assert.equal(await page.locator("#sketch .outline").count(), 1);
+    assert.equal(await page.locator("#download-glb").isDisabled(), false);
+});
+
+test("the viewer leads to the designer and back", async (t) => {
+    const { page } = await open(t);
+    await page.locator("header nav a", { hasText: "Viewer" }).click();
+    await page.locator("#mode-designer").click();
+    await at(page, "empty");
+    assert.match(page.url(), /\/editor$/);
+});

@@ -1,0 +1,133 @@
+// What the service has found on the photograph: numbers, warnings and the species that it is like.
+import { byId, make } from "../dom";
+import { millimetres, sizeOf, type Nearest, type Trace } from "./service";
+
+/** Percent with a digit after the point. */
+function percent(value: number): string {
+    return `${value.toFixed(1)} %`;
+}
+
+function degrees(value: number): string {
+    return `${Math.abs(value).toFixed(0)}°`;
+}
+
+function leaning(value: number): string {
+    if (Math.abs(value) < 0.5) return "upright";
+    return `${degrees(value)} to the ${value > 0 ? "right" : "left"}`;
+}
+
+const methods: Readonly<Record<string, string>> = {
+    fitted: "outline and axis as measured",
+    straightened: "bends less than on the photograph, because the stem would fold",
+};
+
+/** Returns the rows of the list of numbers: name, value and what it means. */
+export function rowsOf(trace: Trace): [string, string, string][] {
+    const { angles, certificate, ring, species, stage } = trace;
+    const size = sizeOf(species.stages[stage]?.model ?? {});
+    const rows: [string, string, string][] = [];
+    if (size) {
+        rows.push(["Height", millimetres(size.height), "from the ground to the top"]);
+        rows.push(["Cap", `${millimetres(size.cap)} across`, "greatest diameter"]);
+    }
+    if (ring)
+        rows.push([
+            "Ring",
+            `${millimetres(ring.height_m)} high`,
+            `stands ${millimetres(ring.width_m)} out from the stem`,
+        ]);
+    rows.push(
+        ["Error", percent(trace.error_pct), "greatest distance to the photograph, of the height"],
+        ["Asymmetry", percent(trace.asymmetry_pct), "half the distance between left and right"],
+        ["Lean", leaning(angles.lean_deg), "of the line from the foot to the top of the stem"],
+        ["Bend", degrees(angles.bend_deg), "between foot and cap"],
+        ["Method", methods[trace.method] ?? trace.method, "how the shape came about"],
+        [
+            "Proof",
+            certificate.simple ? "✓ never crosses itself" : "not proven",
+            `by ${certificate.method}`,
+        ],
+    );
+    return rows;
+}
+
+export interface FindingsEvents {
+    template: (id: string) => void;
+    stage: (index: number) => void;
+}
+
+export class Findings {
+    constructor(private readonly events: FindingsEvents) {
+        byId("template-auto").addEventListener("click", () => events.template("auto"));
+    }
+
+    /** Shows a trace, or nothing. `template` is the chosen one. */
+    show(trace: Trace | undefined, template: string): void {
+        for (const id of ["findings", "actions"]) byId(id).hidden = !trace;
+        if (!trace) return;
+        byId("found-numbers").replaceChildren(
+            ...rowsOf(trace).flatMap(([name, value, meaning]) => [
+                make("dt", {}, name),
+                make("dd", { title: meaning }, value),
+            ]),
+        );
+        byId("warnings").replaceChildren(
+            ...trace.warnings.map(({ code, detail }) => make("li", { "data-code": code }, detail)),
+        );
+        byId("warnings").hidden = trace.warnings.length === 0;
+        const auto = template === "auto";
+        byId("template-auto").setAttribute("aria-pressed", String(auto));
+        const [first] = trace.nearest;
+        const used = auto ? first?.id : template;
+        byId("nearest").replaceChildren(
+            ...trace.nearest.map((nearest) => this.button(nearest, nearest.id === used, auto)),
+        );
+        const lender = trace.nearest.find(({ id }) => id === used)?.name ?? template;
+        byId("nearest-used").textContent = auto
+            ? `All else comes from our ${lender}, which it is most like.`
+            : `All else comes from our ${lender}.`;
+    }
+
+    /** Shows which stage of the species is on the stage. */
+    showStages(trace: Trace | undefined, shown: number): void {
+        const stages = trace?.species.stages ?? [];
+        byId("ages").hidden = stages.length < 2;
+        byId("age-list").replaceChildren(
+            ...stages.map(({ age, name }, index) => {
+                const own = index === trace?.stage;
+                const button = make(
+                    "button",
+                    { type: "button", "aria-pressed": String(index === shown), title: name },
+                    own ? "photograph" : `${Math.round(age * 100)} %`,
+                );
+                button.addEventListener("click", () => this.events.stage(index));
+                return button;
+            }),
+        );
+    }
+
+    private button(nearest: Nearest, used: boolean, auto: boolean): HTMLLIElement {
+        const { id, name, age, shape_pct: shape, colour } = nearest;
+        const picture = make("img", {
+            src: `v1/mushrooms/${id}.png?width=128&height=128&view=front&age=${age}`,
+            alt: "",
+            width: 56,
+            height: 56,
+            loading: "lazy",
+        });
+        const button = make(
+            "button",
+            { type: "button", "data-species": id, "aria-pressed": String(used && !auto) },
+            picture,
+            make(
+                "span",
+                {},
+                make("b", {}, `looks like our ${name}`),
+                make("small", {}, `shape ${percent(shape)} off, colour ΔE ${colour.toFixed(0)}`),
+            ),
+        );
+        if (used) button.classList.add("used");
+        button.addEventListener("click", () => this.events.template(id));
+        return make("li", {}, button);
+    }
+}

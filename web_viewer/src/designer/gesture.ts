@@ -1,0 +1,175 @@
+// What a person draws on a photograph: lines in its pixels, as the service reads them. All values
+// are immutable, so that undo restores whole gestures.
+
+/** A place in pixels of the stored photograph, from its upper left corner. */
+export type Point = readonly [number, number];
+export type Stroke = readonly Point[];
+
+export const tools = ["axis", "cap", "keep", "drop", "frame"] as const;
+export type Tool = (typeof tools)[number];
+
+export interface Gesture {
+    /** From the foot to the top. */
+    axis: Stroke;
+    cap: Stroke;
+    keep: readonly Stroke[];
+    drop: readonly Stroke[];
+    /** Two opposite corners, or nothing. */
+    frame: Stroke;
+}
+
+/** Everything that a trace depends on beside the photograph; one step of undo. */
+export interface Drawing {
+    gesture: Gesture;
+    /** A species, or "auto" for the one that is most alike. */
+    template: string;
+    /** Undefined for the height of the template. */
+    heightMm: number | undefined;
+}
+
+export interface Extent {
+    width: number;
+    height: number;
+}
+
+export const mostPoints = 64;
+export const mostStrokes = 16;
+
+export const nothingDrawn: Gesture = { axis: [], cap: [], keep: [], drop: [], frame: [] };
+export const startOfDrawing: Drawing = {
+    gesture: nothingDrawn,
+    template: "auto",
+    heightMm: undefined,
+};
+
+/** Returns the nearest whole pixel inside a picture. */
+export function inside([x, y]: Point, { width, height }: Extent): Point {
+    const within = (value: number, most: number): number =>
+        Math.min(Math.max(Math.round(value), 0), most - 1);
+    return [within(x, width), within(y, height)];
+}
+
+export function distance([ax, ay]: Point, [bx, by]: Point): number {
+    return Math.hypot(ax - bx, ay - by);
+}
+
+function distanceToSegment(point: Point, from: Point, to: Point): number {
+    const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    const square = dx * dx + dy * dy;
+    const along = (point[0] - from[0]) * dx + (point[1] - from[1]) * dy;
+    const share = square > 0 ? Math.min(Math.max(along / square, 0), 1) : 0;
+    return distance(point, [from[0] + share * dx, from[1] + share * dy]);
+}
+
+/** Returns the points of a stroke that are needed to stay within a distance of it [Douglas and
+ *  Peucker 1973]. */
+function thinned(stroke: Stroke, tolerance: number): Stroke {
+    const [from, to] = [stroke[0], stroke.at(-1)];
+    if (!from || !to || stroke.length <= 2) return stroke;
+    let farthest = 0;
+    let most = tolerance;
+    stroke.slice(1, -1).forEach((point, index) => {
+        const off = distanceToSegment(point, from, to);
+        if (off > most) [farthest, most] = [index + 1, off];
+    });
+    if (farthest === 0) return [from, to];
+    const before = thinned(stroke.slice(0, farthest + 1), tolerance);
+    return [...before.slice(0, -1), ...thinned(stroke.slice(farthest), tolerance)];
+}
+
+/** Returns a stroke with the fewest points within a tolerance in pixels, and never more of them
+ *  than the service reads. */
+export function simplified(stroke: Stroke, tolerance: number): Stroke {
+    let allowed = tolerance;
+    let fewer = thinned(stroke, allowed);
+    while (fewer.length > mostPoints) fewer = thinned(stroke, (allowed *= 1.5));
+    return fewer;
+}
+
+/** Returns the strokes that one tool has drawn. */
+export function strokesOf(gesture: Gesture, tool: Tool): readonly Stroke[] {
+    if (tool === "keep" || tool === "drop") return gesture[tool];
+    return gesture[tool].length > 0 ? [gesture[tool]] : [];
+}
+
+/** Returns a gesture in which one tool has drawn these strokes. */
+export function withStrokes(gesture: Gesture, tool: Tool, strokes: readonly Stroke[]): Gesture {
+    const drawn = strokes.filter((stroke) => stroke.length > 0);
+    if (tool === "keep" || tool === "drop") return { ...gesture, [tool]: drawn };
+    return { ...gesture, [tool]: drawn[0] ?? [] };
+}
+
+/** Returns a gesture with one stroke more; the lines of the mushroom and the frame are replaced. */
+export function withStroke(gesture: Gesture, tool: Tool, stroke: Stroke): Gesture {
+    const stays = tool === "keep" || tool === "drop" ? gesture[tool] : [];
+    return withStrokes(gesture, tool, [...stays, stroke]);
+}
+
+/** Returns a gesture in which one point is elsewhere. */
+export function withPoint(
+    gesture: Gesture,
+    tool: Tool,
+    [stroke, point]: readonly [number, number],
+    place: Point,
+): Gesture {
+    const strokes = strokesOf(gesture, tool).map((line, index) =>
+        index === stroke ? line.map((old, at) => (at === point ? place : old)) : line,
+    );
+    return withStrokes(gesture, tool, strokes);
+}
+
+export function strokeCount(gesture: Gesture): number {
+    const lines: readonly Tool[] = ["axis", "cap", "keep", "drop"];
+    return lines.reduce((sum, tool) => sum + strokesOf(gesture, tool).length, 0);
+}
+
+/** Returns a rectangle as x, y, width and height. */
+export function rectangle(corners: Stroke): [number, number, number, number] | undefined {
+    const [a, b] = corners;
+    if (!a || !b) return undefined;
+    const [left, top] = [Math.min(a[0], b[0]), Math.min(a[1], b[1])];
+    return [left, top, Math.abs(a[0] - b[0]), Math.abs(a[1] - b[1])];
+}
+
+/** Returns the line that has to be drawn before the service can trace, undefined if none is
+ *  missing. A picture that is cut out needs none. */
+export function missingLine(gesture: Gesture, cutOut: boolean): "axis" | "cap" | undefined {
+    if (cutOut && strokeCount(gesture) === 0) return undefined;
+    if (gesture.axis.length < 2) return cutOut ? undefined : "axis";
+    return gesture.cap.length < 2 && !cutOut ? "cap" : undefined;
+}
+
+/** The body of a trace, without the photograph it is about. */
+export interface TraceOrder {
+    gesture?: Record<string, unknown>;
+    template: string;
+    height_m?: number;
+}
+
+/** Returns a drawing as the service reads it: what was not drawn is left out. */
+export function orderOf({ gesture, template, heightMm }: Drawing): TraceOrder {
+    const { axis, cap, keep, drop } = gesture;
+    const frame = rectangle(gesture.frame);
+    const drawn = Object.entries({ axis, cap, keep, drop, frame: frame ?? [] }).filter(
+        ([, lines]) => lines.length > 0,
+    );
+    return {
+        ...(drawn.length > 0 ? { gesture: Object.fromEntries(drawn) } : {}),
+        template,
+        ...(heightMm === undefined ? {} : { height_m: heightMm / 1000 }),
+    };
+}
+
+export type PlaceOnPage = Tool | "photo" | "height" | "template" | "model";
+
+/** Returns what on the page a JSON pointer of the service is about, undefined if it is nothing that
+ *  can be seen there. */
+export function placeOf(pointer: string): PlaceOnPage | undefined {
+    const tool = /^\/views\/side\/gesture\/([a-z]+)/.exec(pointer)?.[1];
+    const found = tools.find((name) => name === tool);
+    if (found) return found;
+    if (pointer.startsWith("/views")) return "photo";
+    if (pointer.startsWith("/height_m")) return "height";
+    if (pointer.startsWith("/template")) return "template";
+    return pointer.startsWith("/model") ? "model" : undefined;
+}

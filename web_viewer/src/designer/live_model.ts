@@ -1,0 +1,79 @@
+// The model of the traced stage: one request at a time, and the newest one wins.
+import { asRequestFailed, getModel, type RequestFailed } from "../http";
+import { parseModel } from "../model";
+import type { LoadProgress } from "../progress_box";
+import type { Stage } from "../stage";
+
+export interface LiveModelEvents {
+    progress: (progress: LoadProgress) => void;
+    failed: (error: RequestFailed) => void;
+    /** A final model is on the stage, and these are the bytes of its file. */
+    shown: (file: ArrayBuffer) => void;
+}
+
+interface Wanted {
+    /** The model as JSON. */
+    text: string;
+    draft: boolean;
+    refit: boolean;
+}
+
+export class LiveModel {
+    private active: { wanted: Wanted; stop: AbortController } | undefined;
+    private next: Wanted | undefined;
+
+    constructor(
+        private readonly stage: Stage,
+        private readonly events: LiveModelEvents,
+    ) {}
+
+    get idle(): boolean {
+        return !this.active;
+    }
+
+    /** Shows a model: as a draft coarse and without images, otherwise as the file that can be
+     *  saved. A draft that is on its way is completed first, so that a long drag shows something. */
+    show(model: unknown, { draft = false, refit = false } = {}): void {
+        this.next = { text: JSON.stringify(model), draft, refit: refit || !!this.next?.refit };
+        if (this.active && (!draft || !this.active.wanted.draft)) this.stop();
+        if (!this.active) void this.start();
+    }
+
+    /** Forgets what is on its way. */
+    stop(): void {
+        this.active?.stop.abort();
+        this.active = undefined;
+    }
+
+    private async start(): Promise<void> {
+        const wanted = this.next;
+        if (!wanted) return;
+        this.next = undefined;
+        const active = { wanted, stop: new AbortController() };
+        this.active = active;
+        const current = (): boolean => this.active === active;
+        const { text, draft, refit } = wanted;
+        const options = draft ? '"lod":1,"textures":"none"' : '"lod":0';
+        try {
+            const { bytes, response } = await getModel(
+                { address: "v1/mushrooms.glb", body: `{"model":${text},${options}}` },
+                active.stop.signal,
+                (progress) => {
+                    if (current() && !draft) this.events.progress(progress);
+                },
+            );
+            if (!current()) return;
+            const model = await parseModel(bytes.slice(0), response.url);
+            const shown = await this.stage.show(model, refit, current);
+            if (shown && !draft) this.events.shown(bytes);
+        } catch (error) {
+            if (current()) this.events.failed(asRequestFailed(error, "The model cannot be shown"));
+        } finally {
+            if (current()) {
+                this.active = undefined;
+                this.events.progress({ stage: "idle" });
+                void this.start();
+            }
+        }
+    }
+}

@@ -1,0 +1,156 @@
+// The service's part of the designer: photographs that it forgets after a while, and traces.
+import { RequestFailed, send } from "../http";
+import { orderOf, type Drawing, type Extent, type Point } from "./gesture";
+
+export interface StoredPhoto extends Extent {
+    photo: string;
+    /** The picture is cut out already. */
+    alpha: boolean;
+}
+
+export interface Nearest {
+    id: string;
+    name: string;
+    age: number;
+    shape_pct: number;
+    colour: number;
+}
+
+interface Place {
+    r: number;
+    y: number;
+}
+
+export interface Silhouette {
+    stem: Place[];
+    hymenium: Place[];
+    cap: Place[];
+}
+
+export interface Stage {
+    age: number;
+    name: string;
+    model: { silhouette?: Silhouette };
+}
+
+export interface Species {
+    id: string;
+    facts: { common_name: string; scientific_name: string };
+    stages: Stage[];
+}
+
+export interface Trace {
+    outline: { left: Point[]; right: Point[]; axis: Point[] };
+    marks: { junctions: Point[]; margins: Point[] };
+    angles: { lean_deg: number; bend_deg: number };
+    asymmetry_pct: number;
+    error_pct: number;
+    ring: { height_m: number; width_m: number } | null;
+    nearest: Nearest[];
+    method: string;
+    certificate: { simple: boolean; method: string };
+    warnings: { code: string; detail: string }[];
+    likeness: number;
+    /** Index of the traced stage of the species. */
+    stage: number;
+    species: Species;
+}
+
+/** Traces that are at hand when undo comes back to them. */
+const mostCached = 32;
+
+/** One photograph: the file, what the service stored of it, and the traces made of it. */
+export class Photograph {
+    private readonly traces = new Map<string, Trace>();
+
+    private constructor(
+        private readonly file: Blob,
+        private readonly report: (text: string) => void,
+        public stored: StoredPhoto,
+    ) {}
+
+    /** Sends a file to the service; `report` is called with what happens later to its copy. */
+    static async upload(
+        file: Blob,
+        signal: AbortSignal,
+        report: (text: string) => void,
+    ): Promise<Photograph> {
+        return new Photograph(file, report, await store(file, signal));
+    }
+
+    /** Returns the stored copy, upright and at the size that all pixels are counted in. */
+    async picture(signal: AbortSignal): Promise<Blob> {
+        const response = await this.whileStored(signal, () =>
+            send(`v1/photos/${this.stored.photo}.jpg`, { signal }),
+        );
+        return response.blob();
+    }
+
+    async trace(drawing: Drawing, signal: AbortSignal): Promise<Trace> {
+        const { gesture, ...order } = orderOf(drawing);
+        const key = JSON.stringify([gesture, order]);
+        const known = this.traces.get(key);
+        if (known) return known;
+        const response = await this.whileStored(signal, () =>
+            send("v1/traces", {
+                method: "POST",
+                headers: { "Content-Type": "application/json" },
+                body: JSON.stringify({
+                    views: { side: { photo: this.stored.photo, ...(gesture ? { gesture } : {}) } },
+                    ...order,
+                }),
+                signal,
+            }),
+        );
+        const trace = (await response.json()) as Trace;
+        this.traces.set(key, trace);
+        const oldest = this.traces.keys().next();
+        if (this.traces.size > mostCached && !oldest.done) this.traces.delete(oldest.value);
+        return trace;
+    }
+
+    /** Asks the service to forget its copy; it would do so by itself in half an hour. */
+    forget(): void {
+        send(`v1/photos/${this.stored.photo}.jpg`, { method: "DELETE" }).catch(() => undefined);
+    }
+
+    /** Does what needs the stored copy; if the service has forgotten it, the file is sent again. */
+    private async whileStored<T>(signal: AbortSignal, act: () => Promise<T>): Promise<T> {
+        try {
+            return await act();
+        } catch (error) {
+            if (!(error instanceof RequestFailed) || error.status !== 404) throw error;
+            this.stored = await store(this.file, signal);
+            this.report("The service had forgotten the photograph; it was sent again.");
+            return act();
+        }
+    }
+}
+
+async function store(file: Blob, signal: AbortSignal): Promise<StoredPhoto> {
+    const response = await send("v1/photos", {
+        method: "POST",
+        // The service says which types it reads.
+        headers: { "Content-Type": file.type || "application/octet-stream" },
+        body: file,
+        signal,
+    });
+    return (await response.json()) as StoredPhoto;
+}
+
+/** Returns the height above the ground and the diameter of the cap of an outline, metres. */
+export function sizeOf({
+    silhouette,
+}: Stage["model"]): { height: number; cap: number } | undefined {
+    if (!silhouette) return undefined;
+    const places = [...silhouette.hymenium, ...silhouette.cap];
+    const height = places.reduce((most, { y }) => Math.max(most, y), 0);
+    const radius = places.reduce((most, { r }) => Math.max(most, r), 0);
+    return { height, cap: 2 * radius };
+}
+
+/** Returns metres in millimetres, to a tenth below 20 mm. */
+export function millimetres(metres: number): string {
+    const value = metres * 1000;
+    return `${value < 20 ? Number(value.toFixed(1)) : Math.round(value)} mm`;
+}
