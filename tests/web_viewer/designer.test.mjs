@@ -4,7 +4,14 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    bundled,
+    launchBrowser,
+    logEvents,
+    root,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
 
@@ -42,7 +49,7 @@ after(() => browser?.close());
 /** Opens the page in a context of its own; `log` has its console messages and requests. */
 async function open(t, options = {}) {
     const context = await browser.newContext({
-        viewport: { width: 900, height: 640 },
+        viewport: { width: 800, height: 480 },
         reducedMotion: "reduce",
         ...options,
     });
@@ -59,7 +66,7 @@ function at(page, state) {
     return page.waitForFunction(
         (wanted) => document.documentElement.dataset.designer === wanted,
         state,
-        { timeout: 60_000 },
+        { timeout: 120_000 },
     );
 }
 
@@ -315,6 +322,103 @@ test("fingers alone draw, on targets that they can hit", async (t) => {
     expectNoProblems(log);
 });
 
+test("points of the outline are moved on the photograph, and a reload keeps the draft", async (t) => {
+    const { page, log } = await open(t);
+    await give(page);
+    await drawLines(page);
+    const found = async (name) =>
+        page.locator(`#found-numbers dt:text-is("${name}") + dd`).textContent();
+    const traced = await found("Cap");
+    await page.locator('#tools [data-tool="outline"]').click();
+    const focused = () =>
+        page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? "");
+    assert.match(
+        await focused(),
+        /^stem, point 2 of \d+, [\d.]+ mm from the axis, [\d.]+ mm high$/,
+    );
+    const points = await page.locator(".handle[role=button]").count();
+    const margin = page.locator('.handle[role=button][aria-label^="cap, point 2 "]');
+    const index = Number(await margin.getAttribute("data-index"));
+    // The left side is dragged, and the right one follows.
+    const [from, right] = await Promise.all(
+        [page.locator(`.handle[data-index="${index}"][data-side="-1"]`), margin].map((handle) =>
+            handle.locator(".knob").boundingBox(),
+        ),
+    );
+    const middle = ({ x, y, width, height }) => ({ x: x + width / 2, y: y + height / 2 });
+    const { x, y } = middle(from);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x - 10, y);
+    await page.mouse.up();
+    await at(page, "ready");
+    assert.ok(middle(await margin.locator(".knob").boundingBox()).x > middle(right).x + 5);
+    assert.equal(await found("Method"), "traced, then edited");
+    const dragged = await found("Cap");
+    assert.ok(parseFloat(dragged) > parseFloat(traced), `${dragged} after ${traced}`);
+    assert.match(await focused(), /^cap, point 2 /);
+    // A held key is one step of undo.
+    await page.keyboard.down("Shift");
+    for (let step = 0; step < 14; ++step) await page.keyboard.down("ArrowDown");
+    await page.keyboard.up("ArrowDown");
+    await page.keyboard.up("Shift");
+    assert.match(await page.locator("#status").textContent(), /would cross .* further on/);
+    await page.keyboard.press("Control+z");
+    assert.equal(await found("Cap"), dragged);
+    await page.keyboard.press("Insert");
+    await page.waitForFunction(
+        (most) => document.querySelectorAll(".handle[role=button]").length === most,
+        points + 1,
+    );
+    await page.keyboard.press("PageUp");
+    await page.keyboard.press("Delete");
+    await at(page, "ready");
+    assert.equal(await page.locator(".handle[role=button]").count(), points);
+    await page.waitForTimeout(600);
+    const edited = await found("Cap");
+    await page.reload();
+    await page.locator("#sketch .outline").waitFor({ state: "attached" });
+    await at(page, "ready");
+    assert.equal(await found("Cap"), edited);
+    assert.equal(await found("Method"), "traced, then edited");
+    assert.match(await found("Proof"), /never crosses itself/);
+    await Promise.all([page.waitForEvent("load"), page.locator("#forget").click()]);
+    await at(page, "empty");
+    expectNoProblems(log);
+});
+
+test("the page lets no point go where the service refuses the outline", async () => {
+    const text = await bundled(path.join(root, "web_viewer/src/designer/outline.ts"));
+    const { controlsOf, moved } = await import(
+        `data:text/javascript;base64,${Buffer.from(text).toString("base64")}`
+    );
+    let random = 7;
+    const draw = () => (random = (random * 16807) % 2147483647) / 2147483647;
+    let stops = 0;
+    for (const id of ["boletus_edulis", "amanita_muscaria", "cantharellus_cibarius"]) {
+        const { stages } = await (await fetch(`${base}/v1/species/${id}`)).json();
+        for (let { silhouette } of stages.map(({ model }) => model)) {
+            for (let drag = 0; drag < 20; ++drag) {
+                const controls = controlsOf(silhouette);
+                const at = Math.floor(draw() * controls.length);
+                const far = draw() < 0.5 ? 0.1 : 0.01;
+                const { r, y } = controls[at];
+                const to = { r: r + far * (draw() - 0.5), y: y + far * (draw() - 0.5) };
+                const move = moved(silhouette, at, to);
+                if (move.stopped) ++stops;
+                ({ silhouette } = move);
+                const response = await fetch(`${base}/v1/outlines/check`, {
+                    method: "POST",
+                    headers: { "Content-Type": "application/json" },
+                    body: JSON.stringify({ silhouette, axis: [] }),
+                });
+                assert.deepEqual((await response.json()).problem, null, `${id}, drag ${drag}`);
+            }
+        }
+    }
+    assert.ok(stops > 20, `only ${stops} drags were stopped`);
+});
+
 test("what the service refuses stands beside what it is about, in its words", async (t) => {
     const { page } = await open(t);
     const text = { name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no picture") };
@@ -345,7 +449,7 @@ test("what the service refuses stands beside what it is about, in its words", as
     assert.equal(await page.locator("#height-error").isVisible(), false);
 });
 
-test("a photograph that the service has forgotten is sent again by itself", async (t) => {
+test("a forgotten photograph is sent again, and one that is cut out needs no line", async (t) => {
     const { page, log } = await open(t);
     const [stored] = await Promise.all([
         page.waitForResponse((response) => response.url().endsWith("/v1/photos")),
@@ -357,19 +461,19 @@ test("a photograph that the service has forgotten is sent again by itself", asyn
     await drawLines(page);
     assert.equal(await page.locator("#sketch .outline").count(), 1);
     assert.equal(log.requests.filter((url) => url.endsWith("/v1/photos")).length, 2);
-});
-
-test("a picture that is cut out already is traced without a line", async (t) => {
-    const { page, log } = await open(t);
-    await give(page, cutOut);
-    assert.equal(traces(log), 1);
+    const before = traces(log);
+    await page.locator("#file").setInputFiles(cutOut);
+    await page.waitForResponse((response) => response.url().endsWith("/v1/traces"));
+    await at(page, "ready");
+    assert.equal(traces(log), before + 1);
+    assert.equal(await strokes(page, "axis"), 0);
     assert.equal(await page.locator("#sketch .outline").count(), 1);
-    assert.equal(await page.locator("#download-glb").isDisabled(), false);
 });
 
 test("the viewer leads to the designer and back", async (t) => {
     const { page } = await open(t);
-    await page.locator("header nav a", { hasText: "Viewer" }).click();
+    assert.equal(await page.locator("header nav a").first().getAttribute("href"), "./");
+    await page.goto(`${base}/`, { waitUntil: "commit" });
     await page.locator("#mode-designer").click();
     await at(page, "empty");
     assert.match(page.url(), /\/editor$/);

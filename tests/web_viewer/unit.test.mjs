@@ -17,6 +17,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "depth_of_field",
             "designer/findings",
             "designer/gesture",
+            "designer/outline",
             "designer/service",
             "dom",
             "gallery",
@@ -1002,4 +1003,103 @@ test("height and cap are read from the outline, and numbers are told with their 
     assert.equal(values.Lean, "2° to the left");
     assert.match(values.Method, /bends less/);
     assert.match(values.Proof, /never crosses/);
+});
+
+const bolete = {
+    stem: [
+        { r: 0, y: -0.0198 },
+        { r: 0.02475, y: -0.01155 },
+        { r: 0.0275, y: 0.018 },
+        { r: 0.0212, y: 0.07 },
+        { r: 0.0205, y: 0.084 },
+    ],
+    hymenium: [
+        { r: 0.0205, y: 0.084 },
+        { r: 0.0335, y: 0.0848 },
+        { r: 0.0532, y: 0.0838 },
+    ],
+    cap: [
+        { r: 0.0532, y: 0.0838 },
+        { r: 0.0566, y: 0.0892 },
+        { r: 0.0358, y: 0.1168 },
+        { r: 0, y: 0.1237 },
+    ],
+    junction: "corner",
+    margin: "smooth",
+};
+
+test("the outline goes through its points, and shared points are moved in both curves", () => {
+    const controls = page.controlsOf(bolete);
+    assert.equal(controls.length, 5 + 2 + 3);
+    const line = page.polylineOf(bolete, 6);
+    assert.equal(line.length, 9 * 6 + 1);
+    controls.forEach(({ r, y }, index) => {
+        const sample = line[index * 6];
+        assert.ok(Math.hypot(sample.r - r, sample.y - y) < 1e-12, `point ${index}`);
+    });
+    assert.equal(page.crossingOf(bolete), undefined);
+    const junction = page.withControl(bolete, 4, { r: 0.022, y: 0.083 });
+    assert.deepEqual(junction.stem.at(-1), { r: 0.022, y: 0.083 });
+    assert.deepEqual(junction.hymenium[0], { r: 0.022, y: 0.083 });
+    assert.equal(page.withControl(bolete, 9, { r: 0.01, y: 0.13 }).cap.at(-1).r, 0);
+    assert.deepEqual(page.withControl(bolete, 2, bolete.stem[2]), bolete);
+});
+
+test("no drag lets the outline cross itself, and one that would stops before it", () => {
+    const far = page.moved(bolete, 5, { r: 0.0335, y: 0.2 });
+    assert.deepEqual(far.stopped, ["hymenium", "cap"]);
+    assert.equal(page.crossingOf(far.silhouette), undefined);
+    const { y } = far.silhouette.hymenium[1];
+    assert.ok(y > 0.1 && y < 0.12, `it went up to ${y}, below the cap`);
+    assert.deepEqual(page.moved(bolete, 2, { r: -0.1, y: 0.018 }).stopped, ["stem", "axis"]);
+    let random = 7;
+    const draw = () => (random = (random * 16807) % 2147483647) / 2147483647;
+    let silhouette = bolete;
+    for (let n = 0; n < 200; ++n) {
+        const at = Math.floor(draw() * 10);
+        const to = { r: 0.08 * draw(), y: 0.16 * draw() - 0.02 };
+        ({ silhouette } = page.moved(silhouette, at, to));
+        assert.equal(page.crossingOf(silhouette), undefined, `drag ${n}`);
+    }
+});
+
+test("a point is inserted on the curve, and removing it gives the outline back", () => {
+    for (let at = 0; at < 9; ++at) {
+        const more = page.withInserted(bolete, at);
+        assert.equal(page.controlsOf(more).length, 11);
+        const middle = page.polylineOf(bolete, 2)[2 * at + 1];
+        const { r, y } = page.controlsOf(more)[at + 1];
+        assert.ok(Math.hypot(middle.r - r, middle.y - y) < 1e-12);
+        assert.ok(page.isRemovable(more, at + 1));
+        assert.deepEqual(page.withRemoved(more, at + 1), bolete);
+    }
+    for (const shared of [0, 4, 6, 9]) {
+        assert.equal(page.isRemovable(bolete, shared), false);
+        assert.deepEqual(page.withRemoved(bolete, shared), bolete);
+    }
+});
+
+test("a place of the outline is found again on the photograph, on both sides of a bent axis", () => {
+    const axis = [
+        [400, 700],
+        [410, 500],
+        [450, 300],
+        [470, 200],
+    ];
+    const frame = new page.AxisFrame(axis, 0.12);
+    for (const side of [-1, 1])
+        for (const place of [
+            { r: 0, y: 0 },
+            { r: 0.02, y: 0.01 },
+            { r: 0.05, y: 0.1 },
+            { r: 0.01, y: -0.02 },
+            { r: 0.03, y: 0.14 },
+        ]) {
+            const found = frame.fromPhoto(frame.toPhoto(place, side));
+            assert.ok(Math.hypot(found.r - place.r, found.y - place.y) < 2e-3 * (1 + place.r / 0.01));
+        }
+    const [left, right] = [-1, 1].map((side) => frame.toPhoto({ r: 0.02, y: 0.05 }, side));
+    assert.ok(left[0] < right[0], "the left side is on the left");
+    const top = frame.toPhoto({ r: 0, y: 0.12 }, 1);
+    assert.ok(Math.hypot(top[0] - 470, top[1] - 200) < 1e-9);
 });

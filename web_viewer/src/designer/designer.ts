@@ -27,9 +27,12 @@ import {
     type PlaceOnPage,
     type Tool,
 } from "./gesture";
+import { forgetDraft, loadDraft, saveDraft } from "./draft";
 import { LiveModel } from "./live_model";
+import { withInserted, withRemoved, type Silhouette } from "./outline";
+import { OutlineEditor } from "./outline_editor";
 import { PointTable } from "./point_table";
-import { Photograph, sizeOf, type Trace } from "./service";
+import { checkOutline, Photograph, shapeOf, sizeOf, withShape, type Trace } from "./service";
 
 interface ToolWords {
     label: string;
@@ -73,6 +76,9 @@ const viewLabels: Readonly<Record<Exclude<ViewName, "roots">, string>> = {
     below: "Below",
 };
 
+/** Time after which a step is in the draft, milliseconds. */
+const saveDelayMs = 300;
+
 export class Designer {
     private readonly history = new History<Drawing>(startOfDrawing);
     private readonly sketch: Sketch;
@@ -81,10 +87,16 @@ export class Designer {
     private readonly problems = new ProblemBox((item) => this.showBeside(item));
     private stage: Stage | undefined;
     private live: LiveModel | undefined;
+    private readonly outline: OutlineEditor;
+    private editing = false;
     private photograph: Photograph | undefined;
     private address: string | undefined;
     private opening: AbortController | undefined;
     private tracing: AbortController | undefined;
+    private checking: AbortController | undefined;
+    private saving: ReturnType<typeof setTimeout> | undefined;
+    /** As the service traced it, and with the outline as it is edited. */
+    private traced: Trace | undefined;
     private trace: Trace | undefined;
     private shownStage = 0;
     private file: ArrayBuffer | undefined;
@@ -96,6 +108,16 @@ export class Designer {
             pending: () => this.showOrder(),
             said: announce,
         });
+        this.outline = new OutlineEditor((event) => this.sketch.exactly(event), {
+            moving: (silhouette) => this.showDraft(silhouette),
+            moved: (silhouette) =>
+                this.reshape((old, stage) => (stage === this.traced?.stage ? silhouette : old)),
+            // All stages have the same points, so that they can blend.
+            insert: (at) => this.reshape((old) => withInserted(old, at)),
+            remove: (at) => this.reshape((old) => withRemoved(old, at)),
+            said: announce,
+        });
+        this.sketch.overlay(this.outline.element);
         this.findings = new Findings({
             template: (template) => this.change({ template }),
             stage: (index) => this.showStage(index),
@@ -106,12 +128,27 @@ export class Designer {
             button.addEventListener("click", () => this.use(tool));
             byId("tools").append(button);
         }
+        const edit = make(
+            "button",
+            { type: "button", "data-tool": "outline", title: "Move the points of the outline" },
+            "Outline",
+        );
+        edit.addEventListener("click", () => this.edit());
+        byId("tools").append(edit);
         this.connect();
         this.state = "empty";
     }
 
+    /** Opens the draft of the last visit, if there is one. */
+    async resume(): Promise<void> {
+        const draft = await loadDraft();
+        if (!draft || this.photograph || this.opening) return;
+        await this.open(draft.file, draft.drawing);
+        if (this.photograph) announce("The draft of the last visit is open again.");
+    }
+
     /** Opens a photograph in place of the last one. */
-    async open(file: Blob): Promise<void> {
+    async open(file: Blob, drawing = startOfDrawing): Promise<void> {
         this.opening?.abort();
         const opening = new AbortController();
         this.opening = opening;
@@ -123,7 +160,7 @@ export class Designer {
             const photograph = await Photograph.upload(file, opening.signal, announce);
             const address = URL.createObjectURL(await photograph.picture(opening.signal));
             if (opening.signal.aborted) return URL.revokeObjectURL(address);
-            this.begin(photograph, address);
+            this.begin(photograph, address, drawing);
         } catch (error) {
             if (opening.signal.aborted) return;
             this.state = this.photograph ? "ready" : "failed";
@@ -133,12 +170,12 @@ export class Designer {
         }
     }
 
-    private begin(photograph: Photograph, address: string): void {
+    private begin(photograph: Photograph, address: string, drawing: Drawing): void {
         this.photograph?.forget();
         if (this.address) URL.revokeObjectURL(this.address);
         this.photograph = photograph;
         this.address = address;
-        this.history.begin(startOfDrawing);
+        this.history.begin(drawing);
         this.fresh = true;
         byId("welcome").hidden = true;
         for (const id of ["desk", "stage", "panel"]) byId(id).hidden = false;
@@ -146,11 +183,18 @@ export class Designer {
         this.makeStage();
         this.sketch.open(address, photograph.stored);
         this.showTrace(undefined);
-        this.use(photograph.stored.alpha ? "keep" : "axis");
+        this.use(this.missing() ?? "keep");
         byId("sketch").focus();
         this.restored();
         if (photograph.stored.alpha) announce("It is cut out already: traced at once.");
-        else announce(`${words.axis.sentence}.`);
+        else announce(`${byId("sentence").textContent}.`);
+    }
+
+    /** Forgets the photograph, here and at the service, and starts anew. */
+    private forget(): void {
+        clearTimeout(this.saving);
+        this.photograph?.forget();
+        void forgetDraft().finally(() => location.reload());
     }
 
     /** The stage needs a size, which it has once it is shown. */
@@ -191,8 +235,7 @@ export class Designer {
             progress: showProgress,
             failed: (error) => {
                 this.state = "failed";
-                this.problems.show(error, () => this.showStage(this.shownStage));
-                announce(error.message);
+                this.showFailure(error);
             },
             shown: (file) => {
                 this.file = file;
@@ -222,6 +265,7 @@ export class Designer {
             const { gesture } = this.history.value;
             this.change({ gesture: withStrokes(gesture, this.sketch.tool, []) });
         });
+        byId("forget").addEventListener("click", () => this.forget());
         byId("trace-now").addEventListener("click", () => void this.retrace(true));
         const shown = byId<HTMLInputElement>("show-trace");
         shown.addEventListener("change", () =>
@@ -288,9 +332,59 @@ export class Designer {
         }
     }
 
+    /** A change of what is traced discards an edited outline; undo brings it back. */
     private change(change: Partial<Drawing>): void {
-        this.history.push({ ...this.history.value, ...change });
+        this.history.push({ ...this.history.value, shape: undefined, ...change });
         this.restored();
+    }
+
+    /** Changes the outlines of all stages. */
+    private reshape(changed: (old: Silhouette, stage: number) => Silhouette): void {
+        const shape = this.trace && shapeOf(this.trace.species);
+        if (shape) this.change({ shape: shape.map(changed) });
+    }
+
+    /** Shows the model with an outline that is being dragged. */
+    private showDraft(silhouette: Silhouette): void {
+        const { traced } = this;
+        const model = traced?.species.stages[traced.stage]?.model;
+        if (model) this.live?.show({ ...model, silhouette }, { draft: true });
+    }
+
+    /** Lets the service judge an edited outline. */
+    private async check(): Promise<void> {
+        this.checking?.abort();
+        const { trace } = this;
+        const model = trace?.species.stages[trace.stage]?.model;
+        if (!trace || !model || !this.history.value.shape) return;
+        const checking = new AbortController();
+        this.checking = checking;
+        try {
+            const { simple, method, problem } = await checkOutline(model, checking.signal);
+            if (checking.signal.aborted) return;
+            const certificate = { simple, method };
+            this.findings.show({ ...trace, certificate }, this.history.value);
+                        if (problem) this.say("outline", problem.detail);
+        } catch (error) {
+            if (checking.signal.aborted) return;
+            this.showFailure(asRequestFailed(error, "The outline cannot be checked"));
+        }
+    }
+
+    /** Shows the points of the outline in place of the lines. */
+    private edit(): void {
+        this.editing = true;
+        this.sketch.idle = true;
+        this.showOutline();
+        this.showTools();
+        if (this.trace && this.shownStage !== this.trace.stage) this.showStage(this.trace.stage);
+        this.outline.focus();
+    }
+
+    private showOutline(): void {
+        const { trace, editing } = this;
+        const model = editing ? trace?.species.stages[trace.stage]?.model : undefined;
+        this.outline.show(model?.silhouette, trace?.outline.axis ?? []);
     }
 
     /** Shows the drawing that the history is at, and traces it. */
@@ -301,7 +395,17 @@ export class Designer {
         byId<HTMLButtonElement>("undo").disabled = !this.history.undoable;
         byId<HTMLButtonElement>("redo").disabled = !this.history.redoable;
         this.showTools();
+        this.save();
         void this.retrace(false);
+    }
+
+    /** Saves the draft, once for quick steps. */
+    private save(): void {
+        clearTimeout(this.saving);
+        this.saving = setTimeout(() => {
+            const { photograph } = this;
+            if (photograph) void saveDraft({ file: photograph.file, drawing: this.history.value });
+        }, saveDelayMs);
     }
 
     private missing(): "axis" | "cap" | undefined {
@@ -310,6 +414,9 @@ export class Designer {
     }
 
     private use(tool: Tool): void {
+        this.editing = false;
+        this.sketch.idle = false;
+        this.showOutline();
         this.sketch.tool = tool;
         this.showTools();
     }
@@ -317,11 +424,16 @@ export class Designer {
     private showTools(): void {
         const { gesture } = this.history.value;
         for (const button of byId("tools").children) {
-            const tool = (button as HTMLElement).dataset["tool"] as Tool;
-            button.setAttribute("aria-pressed", String(tool === this.sketch.tool));
-            button.classList.toggle("done", strokesOf(gesture, tool).length > 0);
+            const name = (button as HTMLElement).dataset["tool"];
+            const tool = tools.find((one) => one === name);
+            const pressed = tool ? !this.editing && tool === this.sketch.tool : this.editing;
+            button.setAttribute("aria-pressed", String(pressed));
+            const done = tool ? strokesOf(gesture, tool).length > 0 : !!this.history.value.shape;
+            button.classList.toggle("done", done);
+            if (!tool) (button as HTMLButtonElement).disabled = !this.trace;
         }
         this.showOrder();
+        byId("points").hidden = this.editing;
         if (this.photograph) this.table.show(gesture, this.sketch.tool, this.photograph.stored);
     }
 
@@ -329,6 +441,11 @@ export class Designer {
         const { tool, pending } = this.sketch;
         const { gesture } = this.history.value;
         const drawn = strokesOf(gesture, tool).length > 0;
+        if (this.editing) {
+            byId("sentence").textContent = "Drag a point, or move it by arrows";
+            for (const id of ["stroke-tools", "clear", "trace-now"]) byId(id).hidden = true;
+            return;
+        }
         const moves = drawn && tool !== "keep" && tool !== "drop";
         byId("sentence").textContent = moves
             ? "Drag its points, or draw it anew"
@@ -382,17 +499,24 @@ export class Designer {
         return `Traced: ${tall}error ${error.toFixed(1)} %.${like}`;
     }
 
-    private showTrace(trace: Trace | undefined): void {
+    private showTrace(traced: Trace | undefined): void {
+        const { shape } = this.history.value;
+        const trace = traced && withShape(traced, shape);
+        this.traced = traced;
         this.trace = trace;
         this.stale = false;
         this.sketch.showTrace(trace);
-        this.findings.show(trace, this.history.value.template);
+        this.findings.show(trace, this.history.value);
+        if (!trace && this.editing) this.use(this.missing() ?? "keep");
+        this.showOutline();
+        this.showTools();
+        void this.check();
         byId("panel-hint").hidden = !!trace;
         const height = trace && sizeOf(trace.species.stages[trace.stage]?.model ?? {})?.height;
         byId<HTMLInputElement>("height").placeholder =
             height === undefined ? "" : String(Math.round(height * 1000));
         if (trace) return this.showStage(trace.stage);
-        this.live?.stop();
+        this.live?.cancel();
         this.findings.showStages(undefined, 0);
     }
 
@@ -422,7 +546,7 @@ export class Designer {
     /** Shows what the service says beside what it is about. */
     private showBeside({ parameter, detail }: ProblemItem): boolean {
         const place = placeOf(parameter);
-        if (!place || place === "model") return false;
+        if (!place) return false;
         this.say(place, detail);
         return true;
     }
@@ -438,7 +562,7 @@ export class Designer {
             return;
         }
         const tool = tools.find((name) => name === place);
-        const name = tool ? words[tool].label : "Photograph";
+        const name = tool ? words[tool].label : place === "outline" ? "Outline" : "Photograph";
         const line = make("li", { "data-place": place }, make("b", {}, name), ` ${detail}`);
         byId("gesture-errors").append(line);
         if (tool) byId("tools").querySelector(`[data-tool="${tool}"]`)?.classList.add("failed");

@@ -1,5 +1,6 @@
 // What the service has found on the photograph: numbers, warnings and the species that it is like.
 import { byId, make } from "../dom";
+import type { Drawing } from "./gesture";
 import { millimetres, sizeOf, type Nearest, type Trace } from "./service";
 
 /** Percent with a digit after the point. */
@@ -21,8 +22,9 @@ const methods: Readonly<Record<string, string>> = {
     straightened: "bends less than on the photograph, because the stem would fold",
 };
 
-/** Returns the rows of the list of numbers: name, value and what it means. */
-export function rowsOf(trace: Trace): [string, string, string][] {
+/** Returns the rows of the list of numbers: name, value and what it means. An edited outline has no
+ *  error to the photograph. */
+export function rowsOf(trace: Trace, edited = false): [string, string, string][] {
     const { angles, certificate, ring, species, stage } = trace;
     const size = sizeOf(species.stages[stage]?.model ?? {});
     const rows: [string, string, string][] = [];
@@ -36,12 +38,21 @@ export function rowsOf(trace: Trace): [string, string, string][] {
             `${millimetres(ring.height_m)} high`,
             `stands ${millimetres(ring.width_m)} out from the stem`,
         ]);
+    if (!edited)
+        rows.push([
+            "Error",
+            percent(trace.error_pct),
+            "greatest distance to the photograph, of the height",
+        ]);
     rows.push(
-        ["Error", percent(trace.error_pct), "greatest distance to the photograph, of the height"],
         ["Asymmetry", percent(trace.asymmetry_pct), "half the distance between left and right"],
         ["Lean", leaning(angles.lean_deg), "of the line from the foot to the top of the stem"],
         ["Bend", degrees(angles.bend_deg), "between foot and cap"],
-        ["Method", methods[trace.method] ?? trace.method, "how the shape came about"],
+        [
+            "Method",
+            edited ? "traced, then edited" : (methods[trace.method] ?? trace.method),
+            "how the shape came about",
+        ],
         [
             "Proof",
             certificate.simple ? "✓ never crosses itself" : "not proven",
@@ -62,11 +73,11 @@ export class Findings {
     }
 
     /** Shows a trace, or nothing. `template` is the chosen one. */
-    show(trace: Trace | undefined, template: string): void {
+    show(trace: Trace | undefined, { template, shape }: Drawing): void {
         for (const id of ["findings", "actions"]) byId(id).hidden = !trace;
         if (!trace) return;
         byId("found-numbers").replaceChildren(
-            ...rowsOf(trace).flatMap(([name, value, meaning]) => [
+            ...rowsOf(trace, !!shape).flatMap(([name, value, meaning]) => [
                 make("dt", {}, name),
                 make("dd", { title: meaning }, value),
             ]),

@@ -1,6 +1,8 @@
 // What a person draws on a photograph: lines in its pixels, as the service reads them. All values
 // are immutable, so that undo restores whole gestures.
 
+import type { Silhouette } from "./outline";
+
 /** A place in pixels of the stored photograph, from its upper left corner. */
 export type Point = readonly [number, number];
 export type Stroke = readonly Point[];
@@ -25,6 +27,8 @@ export interface Drawing {
     template: string;
     /** Undefined for the height of the template. */
     heightMm: number | undefined;
+    /** The outlines of all stages once a point was moved; undefined as traced. */
+    shape?: readonly Silhouette[] | undefined;
 }
 
 export interface Extent {
@@ -160,7 +164,7 @@ export function orderOf({ gesture, template, heightMm }: Drawing): TraceOrder {
     };
 }
 
-export type PlaceOnPage = Tool | "photo" | "height" | "template" | "model";
+export type PlaceOnPage = Tool | "photo" | "height" | "template" | "outline";
 
 /** Returns what on the page a JSON pointer of the service is about, undefined if it is nothing that
  *  can be seen there. */
@@ -171,5 +175,5 @@ export function placeOf(pointer: string): PlaceOnPage | undefined {
     if (pointer.startsWith("/views")) return "photo";
     if (pointer.startsWith("/height_m")) return "height";
     if (pointer.startsWith("/template")) return "template";
-    return pointer.startsWith("/model") ? "model" : undefined;
+    return /^(\/model)?\/silhouette/.test(pointer) ? "outline" : undefined;
 }

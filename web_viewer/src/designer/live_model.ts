@@ -11,6 +11,9 @@ export interface LiveModelEvents {
     shown: (file: ArrayBuffer) => void;
 }
 
+/** Time in which quick steps of undo become one request, milliseconds. */
+const pauseMs = 60;
+
 interface Wanted {
     /** The model as JSON. */
     text: string;
@@ -21,6 +24,7 @@ interface Wanted {
 export class LiveModel {
     private active: { wanted: Wanted; stop: AbortController } | undefined;
     private next: Wanted | undefined;
+    private timer: ReturnType<typeof setTimeout> | undefined;
 
     constructor(
         private readonly stage: Stage,
@@ -28,21 +32,28 @@ export class LiveModel {
     ) {}
 
     get idle(): boolean {
-        return !this.active;
+        return !this.active && !this.next;
     }
 
-    /** Shows a model: as a draft coarse and without images, otherwise as the file that can be
+    /** Shows a model: as a draft coarse and with small images, otherwise as the file that can be
      *  saved. A draft that is on its way is completed first, so that a long drag shows something. */
     show(model: unknown, { draft = false, refit = false } = {}): void {
         this.next = { text: JSON.stringify(model), draft, refit: refit || !!this.next?.refit };
         if (this.active && (!draft || !this.active.wanted.draft)) this.stop();
-        if (!this.active) void this.start();
+        clearTimeout(this.timer);
+        if (!this.active) this.timer = setTimeout(() => void this.start(), draft ? 0 : pauseMs);
     }
 
-    /** Forgets what is on its way. */
-    stop(): void {
+    private stop(): void {
         this.active?.stop.abort();
         this.active = undefined;
+    }
+
+    /** Forgets what is wanted and on its way. */
+    cancel(): void {
+        clearTimeout(this.timer);
+        this.next = undefined;
+        this.stop();
     }
 
     private async start(): Promise<void> {
@@ -53,7 +64,7 @@ export class LiveModel {
         this.active = active;
         const current = (): boolean => this.active === active;
         const { text, draft, refit } = wanted;
-        const options = draft ? '"lod":1,"textures":"none"' : '"lod":0';
+        const options = draft ? '"lod":1,"texture_size":256' : '"lod":0';
         try {
             const { bytes, response } = await getModel(
                 { address: "v1/mushrooms.glb", body: `{"model":${text},${options}}` },

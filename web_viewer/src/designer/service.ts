@@ -1,5 +1,6 @@
 // The service's part of the designer: photographs that it forgets after a while, and traces.
 import { RequestFailed, send } from "../http";
+import type { Silhouette } from "./outline";
 import { orderOf, type Drawing, type Extent, type Point } from "./gesture";
 
 export interface StoredPhoto extends Extent {
@@ -16,21 +17,10 @@ export interface Nearest {
     colour: number;
 }
 
-interface Place {
-    r: number;
-    y: number;
-}
-
-export interface Silhouette {
-    stem: Place[];
-    hymenium: Place[];
-    cap: Place[];
-}
-
 export interface Stage {
     age: number;
     name: string;
-    model: { silhouette?: Silhouette };
+    model: { silhouette?: Silhouette; axis?: unknown };
 }
 
 export interface Species {
@@ -64,7 +54,7 @@ export class Photograph {
     private readonly traces = new Map<string, Trace>();
 
     private constructor(
-        private readonly file: Blob,
+        readonly file: Blob,
         private readonly report: (text: string) => void,
         public stored: StoredPhoto,
     ) {}
@@ -119,12 +109,50 @@ export class Photograph {
         try {
             return await act();
         } catch (error) {
-            if (!(error instanceof RequestFailed) || error.status !== 404) throw error;
+            const forgotten = error instanceof RequestFailed && error.status === 404;
+            if (!forgotten || error.items.some(({ parameter }) => parameter === "/template"))
+                throw error;
             this.stored = await store(this.file, signal);
             this.report("The service had forgotten the photograph; it was sent again.");
             return act();
         }
     }
+}
+
+export interface OutlineCheck {
+    simple: boolean;
+    method: string;
+    problem: { curve: string; index: number; detail: string } | null;
+}
+
+/** Returns what the service says about an outline: it has the last word. */
+export async function checkOutline(
+    { silhouette, axis }: Stage["model"],
+    signal: AbortSignal,
+): Promise<OutlineCheck> {
+    const response = await send("v1/outlines/check", {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body: JSON.stringify({ silhouette, axis }),
+        signal,
+    });
+    return (await response.json()) as OutlineCheck;
+}
+
+/** Returns a trace whose stages have these outlines. */
+export function withShape(trace: Trace, shape: readonly Silhouette[] | undefined): Trace {
+    if (!shape) return trace;
+    const stages = trace.species.stages.map((stage, index) => {
+        const silhouette = shape[index];
+        return silhouette ? { ...stage, model: { ...stage.model, silhouette } } : stage;
+    });
+    return { ...trace, species: { ...trace.species, stages } };
+}
+
+/** Returns the outlines of all stages of a species; undefined if one of them has none. */
+export function shapeOf({ stages }: Species): Silhouette[] | undefined {
+    const shape = stages.flatMap(({ model }) => model.silhouette ?? []);
+    return shape.length === stages.length ? shape : undefined;
 }
 
 async function store(file: Blob, signal: AbortSignal): Promise<StoredPhoto> {

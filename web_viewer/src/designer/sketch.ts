@@ -68,6 +68,7 @@ export class Sketch {
     private points: Point[] = [];
     private press: Press | undefined;
     private cursor: Point = [0, 0];
+    private idle_ = false;
 
     constructor(private readonly events: SketchEvents) {
         const { element } = this;
@@ -116,6 +117,26 @@ export class Sketch {
         this.element.dataset["tool"] = tool;
         this.setPoints([]);
         this.redraw();
+    }
+
+    /** While it is idle nothing is drawn: the outline is edited. */
+    set idle(idle: boolean) {
+        this.idle_ = idle;
+        this.element.classList.toggle("editing", idle);
+        if (idle) this.setPoints([]);
+    }
+
+    /** Lays something over the photograph that has events of its own. */
+    overlay(element: SVGElement): void {
+        this.crosshair.before(element);
+    }
+
+    /** Returns where an event is, in pixels of the photograph and parts of them. */
+    exactly({ clientX, clientY }: PointerEvent): Point {
+        const matrix = this.element.getScreenCTM();
+        if (!matrix) return [0, 0];
+        const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(matrix.inverse());
+        return [x, y];
     }
 
     get pending(): number {
@@ -195,15 +216,12 @@ export class Sketch {
         return 1 / (this.element.getScreenCTM()?.a || 1);
     }
 
-    private toPicture({ clientX, clientY }: PointerEvent): Point {
-        const matrix = this.element.getScreenCTM();
-        if (!matrix) return [0, 0];
-        const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(matrix.inverse());
-        return inside([x, y], this.extent);
+    private toPicture(event: PointerEvent): Point {
+        return inside(this.exactly(event), this.extent);
     }
 
     private down(event: PointerEvent): void {
-        if (event.button !== 0 || !event.isPrimary || !this.gesture_) return;
+        if (event.button !== 0 || !event.isPrimary || !this.gesture_ || this.idle_) return;
         this.element.classList.remove("keys");
         this.element.setPointerCapture(event.pointerId);
         const point = this.toPicture(event);
@@ -272,7 +290,7 @@ export class Sketch {
             ArrowDown: [0, 1],
         };
         const step = steps[event.key];
-        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        if (event.ctrlKey || event.metaKey || event.altKey || this.idle_) return;
         if (step) {
             const far = event.shiftKey ? 10 : 1;
             const [x, y] = this.cursor;
