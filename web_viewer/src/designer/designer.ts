@@ -364,7 +364,7 @@ export class Designer {
             if (checking.signal.aborted) return;
             const certificate = { simple, method };
             this.findings.show({ ...trace, certificate }, this.history.value);
-                        if (problem) this.say("outline", problem.detail);
+            if (problem) this.say("outline", problem.detail);
         } catch (error) {
             if (checking.signal.aborted) return;
             this.showFailure(asRequestFailed(error, "The outline cannot be checked"));
@@ -479,7 +479,8 @@ export class Designer {
             if (tracing.signal.aborted) return;
             this.tracing = undefined;
             this.showTrace(trace);
-            announce(this.summary(trace));
+            // What an edit has done is announced where it is done.
+            if (!this.history.value.shape) announce(this.summary(trace));
         } catch (error) {
             if (tracing.signal.aborted) return;
             this.tracing = undefined;
