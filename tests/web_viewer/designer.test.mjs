@@ -13,7 +13,8 @@ import {
     serverUrl,
 } from "./support.mjs";
 
-const base = serverUrl();
+// What a photograph looks like is found among all species.
+const base = serverUrl({ everySpecies: true });
 
 /** Where the mushroom of the photograph is: its foot, top and both ends of its cap. */
 const foot = [447, 705];
@@ -473,7 +474,7 @@ test("a forgotten photograph is sent again, and one that is cut out needs no lin
 test("the viewer leads to the designer and back", async (t) => {
     const { page } = await open(t);
     assert.equal(await page.locator("header nav a").first().getAttribute("href"), "./");
-    await page.goto(`${base}/`, { waitUntil: "commit" });
+    await page.goto(`${serverUrl()}/`, { waitUntil: "commit" });
     await page.locator("#mode-designer").click();
     await at(page, "empty");
     assert.match(page.url(), /\/editor$/);
