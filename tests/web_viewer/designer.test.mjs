@@ -388,6 +388,39 @@ test("points of the outline are moved on the photograph, and a reload keeps the 
     expectNoProblems(log);
 });
 
+test("the JSON of a species is opened, edited and saved again", async (t) => {
+    const { page, log } = await open(t);
+    const text = await (await fetch(`${base}/v1/species/boletus_edulis`)).text();
+    const file = { mimeType: "application/json", buffer: Buffer.from(text) };
+    await page.locator("#file").setInputFiles({ ...file, name: "cep.json" });
+    await page.locator("#sketch .edited").waitFor();
+    await at(page, "ready");
+    assert.equal(await page.locator("#tools button:visible").count(), 1);
+    const save = async () => JSON.parse((await saved(page, "#download-json")).bytes.toString());
+    const species = JSON.parse(text);
+    assert.deepEqual(await save(), species);
+    await page.locator("#found-numbers", { hasText: "never crosses itself" }).waitFor();
+    await page.locator('.handle[aria-label^="cap, point 2 "]').focus();
+    await page.keyboard.press("Alt+ArrowRight");
+    await at(page, "ready");
+    const edited = await save();
+    const stage = edited.stages.findIndex(({ age }) => age === 0.6);
+    const [, { r }] = edited.stages[stage].model.silhouette.cap;
+    const [, old] = species.stages[stage].model.silhouette.cap;
+    const { y: height } = species.stages[stage].model.silhouette.cap.at(-1);
+    expectNear([r - old.r], [0.001 * height], 1e-9);
+    old.r = r;
+    assert.deepEqual(edited, species, "nothing else has changed");
+    await page.screenshot({ path: path.join(folder, "designer_species.png") });
+    await page.locator("#file").setInputFiles({
+        name: "none.json",
+        mimeType: "application/json",
+        buffer: Buffer.from("{}"),
+    });
+    await page.locator("#gesture-errors li", { hasText: "/stages" }).waitFor();
+    expectNoProblems(log);
+});
+
 test("the page lets no point go where the service refuses the outline", async () => {
     const text = await bundled(path.join(root, "web_viewer/src/designer/outline.ts"));
     const { controlsOf, moved } = await import(

@@ -19,6 +19,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "designer/gesture",
             "designer/outline",
             "designer/service",
+            "designer/species_file",
             "dom",
             "gallery",
             "history",
@@ -1102,4 +1103,26 @@ test("a place of the outline is found again on the photograph, on both sides of 
     assert.ok(left[0] < right[0], "the left side is on the left");
     const top = frame.toPhoto({ r: 0, y: 0.12 }, 1);
     assert.ok(Math.hypot(top[0] - 470, top[1] - 200) < 1e-9);
+});
+
+test("the file of a species is opened on paper, and what is none is refused by its place", async () => {
+    const stage = (age) => ({ age, name: "", model: { form: "swept", silhouette: bolete } });
+    const species = { id: "own", stages: [stage(0), stage(0.5), stage(1)] };
+    const refused = (value, reason) =>
+        assert.throws(() => page.readSpecies(JSON.stringify(value)), reason);
+    assert.throws(() => page.readSpecies("{"), /not JSON/);
+    for (const none of [null, 7, {}, { stages: [] }, { stages: 3 }]) refused(none, /\/stages/);
+    refused({ stages: [stage(0), { age: 1, model: {} }] }, /\/stages\/1\/model\/silhouette/);
+    refused({ stages: [stage("old")] }, /\/stages\/0\/age/);
+    const file = await page.SpeciesFile.read(new Blob([JSON.stringify(species)]));
+    const trace = await file.trace();
+    assert.equal(trace.stage, 1);
+    assert.deepEqual(trace.species, species, "nothing of it is lost");
+    for (const [x, y] of [...trace.outline.left, ...trace.outline.right])
+        assert.ok(x >= 50 && x <= 950 && y >= 50 && y <= 950, `${x}, ${y} is on the paper`);
+    assert.deepEqual(
+        page.rowsOf(trace).map(([name]) => name),
+        ["Height", "Cap", "Method"],
+    );
+    assert.match(await (await file.picture()).text(), /^<svg /);
 });

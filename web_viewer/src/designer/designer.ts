@@ -32,7 +32,16 @@ import { LiveModel } from "./live_model";
 import { withInserted, withRemoved, type Silhouette } from "./outline";
 import { OutlineEditor } from "./outline_editor";
 import { PointTable } from "./point_table";
-import { checkOutline, Photograph, shapeOf, sizeOf, withShape, type Trace } from "./service";
+import {
+    checkOutline,
+    Photograph,
+    shapeOf,
+    sizeOf,
+    withShape,
+    type Source,
+    type Trace,
+} from "./service";
+import { SpeciesFile } from "./species_file";
 
 interface ToolWords {
     label: string;
@@ -76,6 +85,11 @@ const viewLabels: Readonly<Record<Exclude<ViewName, "roots">, string>> = {
     below: "Below",
 };
 
+/** Returns true for the JSON of a species; all else is a picture, or refused by the service. */
+function isSpeciesFile(file: Blob): boolean {
+    return file.type === "application/json" || (file instanceof File && /\.json$/i.test(file.name));
+}
+
 /** Time after which a step is in the draft, milliseconds. */
 const saveDelayMs = 300;
 
@@ -89,7 +103,7 @@ export class Designer {
     private live: LiveModel | undefined;
     private readonly outline: OutlineEditor;
     private editing = false;
-    private photograph: Photograph | undefined;
+    private photograph: Source | undefined;
     private address: string | undefined;
     private opening: AbortController | undefined;
     private tracing: AbortController | undefined;
@@ -155,9 +169,11 @@ export class Designer {
         this.state = "busy";
         this.showProblemOfPhoto(undefined);
         byId("drop-here").classList.add("sending");
-        announce("Sending the photograph.");
+        announce(isSpeciesFile(file) ? "Reading the species." : "Sending the photograph.");
         try {
-            const photograph = await Photograph.upload(file, opening.signal, announce);
+            const photograph = isSpeciesFile(file)
+                ? await SpeciesFile.read(file)
+                : await Photograph.upload(file, opening.signal, announce);
             const address = URL.createObjectURL(await photograph.picture(opening.signal));
             if (opening.signal.aborted) return URL.revokeObjectURL(address);
             this.begin(photograph, address, drawing);
@@ -170,7 +186,7 @@ export class Designer {
         }
     }
 
-    private begin(photograph: Photograph, address: string, drawing: Drawing): void {
+    private begin(photograph: Source, address: string, drawing: Drawing): void {
         this.photograph?.forget();
         if (this.address) URL.revokeObjectURL(this.address);
         this.photograph = photograph;
@@ -185,7 +201,13 @@ export class Designer {
         this.showTrace(undefined);
         this.use(this.missing() ?? "keep");
         byId("sketch").focus();
+        byId("sketch").classList.toggle("paper", !photograph.drawable);
+        for (const button of byId("tools").children)
+            (button as HTMLElement).hidden =
+                !photograph.drawable && (button as HTMLElement).dataset["tool"] !== "outline";
+        byId("size").hidden = !photograph.drawable;
         this.restored();
+        if (!photograph.drawable) return this.edit();
         if (photograph.stored.alpha) announce("It is cut out already: traced at once.");
         else announce(`${byId("sentence").textContent}.`);
     }
@@ -356,7 +378,7 @@ export class Designer {
         this.checking?.abort();
         const { trace } = this;
         const model = trace?.species.stages[trace.stage]?.model;
-        if (!trace || !model || !this.history.value.shape) return;
+        if (!trace || !model || (trace.certificate && !this.history.value.shape)) return;
         const checking = new AbortController();
         this.checking = checking;
         try {
@@ -495,9 +517,11 @@ export class Designer {
 
     private summary({ species, stage, nearest, error_pct: error }: Trace): string {
         const size = sizeOf(species.stages[stage]?.model ?? {});
-        const tall = size ? `${centimetres(size.height)} high, ` : "";
+        const tall = size ? `${centimetres(size.height, 1)} high` : "";
+        if (error === undefined)
+            return `Opened: ${species.facts?.common_name ?? species.id}, ${tall}.`;
         const like = nearest[0] ? ` It looks like our ${nearest[0].name}.` : "";
-        return `Traced: ${tall}error ${error.toFixed(1)} %.${like}`;
+        return `Traced: ${tall}, error ${error.toFixed(1)} %.${like}`;
     }
 
     private showTrace(traced: Trace | undefined): void {
@@ -508,7 +532,7 @@ export class Designer {
         this.stale = false;
         this.sketch.showTrace(trace);
         this.findings.show(trace, this.history.value);
-        if (!trace && this.editing) this.use(this.missing() ?? "keep");
+        if (!trace && this.editing && this.photograph?.drawable) this.use(this.missing() ?? "keep");
         this.showOutline();
         this.showTools();
         void this.check();

@@ -19,46 +19,43 @@ function leaning(value: number): string {
 
 const methods: Readonly<Record<string, string>> = {
     fitted: "outline and axis as measured",
+    opened: "from the file of a species",
     straightened: "bends less than on the photograph, because the stem would fold",
 };
 
 /** Returns the rows of the list of numbers: name, value and what it means. An edited outline has no
  *  error to the photograph. */
 export function rowsOf(trace: Trace, edited = false): [string, string, string][] {
-    const { angles, certificate, ring, species, stage } = trace;
-    const size = sizeOf(species.stages[stage]?.model ?? {});
+    const { angles, asymmetry_pct: asymmetry, certificate, error_pct: error, ring } = trace;
+    const size = sizeOf(trace.species.stages[trace.stage]?.model ?? {});
     const rows: [string, string, string][] = [];
+    const add = (name: string, value: string, meaning: string): void => {
+        rows.push([name, value, meaning]);
+    };
     if (size) {
-        rows.push(["Height", millimetres(size.height), "from the ground to the top"]);
-        rows.push(["Cap", `${millimetres(size.cap)} across`, "greatest diameter"]);
+        add("Height", millimetres(size.height), "from the ground to the top");
+        add("Cap", `${millimetres(size.cap)} across`, "greatest diameter");
     }
-    if (ring)
-        rows.push([
-            "Ring",
-            `${millimetres(ring.height_m)} high`,
-            `stands ${millimetres(ring.width_m)} out from the stem`,
-        ]);
-    if (!edited)
-        rows.push([
-            "Error",
-            percent(trace.error_pct),
-            "greatest distance to the photograph, of the height",
-        ]);
-    rows.push(
-        ["Asymmetry", percent(trace.asymmetry_pct), "half the distance between left and right"],
-        ["Lean", leaning(angles.lean_deg), "of the line from the foot to the top of the stem"],
-        ["Bend", degrees(angles.bend_deg), "between foot and cap"],
-        [
-            "Method",
-            edited ? "traced, then edited" : (methods[trace.method] ?? trace.method),
-            "how the shape came about",
-        ],
-        [
-            "Proof",
-            certificate.simple ? "✓ never crosses itself" : "not proven",
-            `by ${certificate.method}`,
-        ],
-    );
+    if (ring) {
+        const meaning = `stands ${millimetres(ring.width_m)} out from the stem`;
+        add("Ring", `${millimetres(ring.height_m)} high`, meaning);
+    }
+    if (error !== undefined && !edited)
+        add("Error", percent(error), "greatest distance to the photograph, of the height");
+    if (asymmetry !== undefined)
+        add("Asymmetry", percent(asymmetry), "half the distance between left and right");
+    if (angles) {
+        const meaning = "of the line from the foot to the top of the stem";
+        add("Lean", leaning(angles.lean_deg), meaning);
+        add("Bend", degrees(angles.bend_deg), "between foot and cap");
+    }
+    const method = methods[trace.method] ?? trace.method;
+    const start = trace.method === "opened" ? "opened" : "traced";
+    add("Method", edited ? `${start}, then edited` : method, "how the shape came about");
+    if (certificate) {
+        const proof = certificate.simple ? "✓ never crosses itself" : "not proven";
+        add("Proof", proof, `by ${certificate.method}`);
+    }
     return rows;
 }
 
@@ -86,6 +83,7 @@ export class Findings {
             ...trace.warnings.map(({ code, detail }) => make("li", { "data-code": code }, detail)),
         );
         byId("warnings").hidden = trace.warnings.length === 0;
+        byId("likeness").hidden = trace.nearest.length === 0;
         const auto = template === "auto";
         byId("template-auto").setAttribute("aria-pressed", String(auto));
         const [first] = trace.nearest;
@@ -109,7 +107,7 @@ export class Findings {
                 const button = make(
                     "button",
                     { type: "button", "aria-pressed": String(index === shown), title: name },
-                    own ? "photograph" : `${Math.round(age * 100)} %`,
+                    own && trace.nearest.length > 0 ? "photograph" : `${Math.round(age * 100)} %`,
                 );
                 button.addEventListener("click", () => this.events.stage(index));
                 return button;

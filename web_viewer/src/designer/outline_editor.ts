@@ -72,6 +72,12 @@ export class OutlineEditor {
             if (event.key.startsWith("Arrow")) this.letGo();
         });
         this.element.addEventListener("focusout", () => this.letGo());
+        this.element.addEventListener("focusin", (event) => {
+            const index = Number((event.target as SVGElement).dataset["index"]);
+            if (index === this.current) return;
+            this.current = index;
+            this.redraw();
+        });
     }
 
     /** Shows an outline along an axis of the photograph, or nothing. */

@@ -25,32 +25,47 @@ export interface Stage {
 
 export interface Species {
     id: string;
-    facts: { common_name: string; scientific_name: string };
+    facts?: { common_name?: string; scientific_name?: string };
     stages: Stage[];
 }
 
 export interface Trace {
     outline: { left: Point[]; right: Point[]; axis: Point[] };
     marks: { junctions: Point[]; margins: Point[] };
-    angles: { lean_deg: number; bend_deg: number };
-    asymmetry_pct: number;
-    error_pct: number;
+    /** What is measured on a photograph. */
+    angles?: { lean_deg: number; bend_deg: number };
+    asymmetry_pct?: number;
+    error_pct?: number;
     ring: { height_m: number; width_m: number } | null;
     nearest: Nearest[];
     method: string;
-    certificate: { simple: boolean; method: string };
+    /** Undefined until the service has tested the outline. */
+    certificate?: { simple: boolean; method: string };
     warnings: { code: string; detail: string }[];
-    likeness: number;
     /** Index of the traced stage of the species. */
     stage: number;
     species: Species;
+}
+
+/** What is worked on: a photograph, or the file of a species. */
+export interface Source {
+    readonly file: Blob;
+    readonly stored: Extent & { alpha: boolean };
+    /** Lines can be drawn on it. */
+    readonly drawable: boolean;
+    /** Returns the picture that all pixels are counted in. */
+    picture(signal: AbortSignal): Promise<Blob>;
+    trace(drawing: Drawing, signal: AbortSignal): Promise<Trace>;
+    /** Forgets what the service has of it. */
+    forget(): void;
 }
 
 /** Traces that are at hand when undo comes back to them. */
 const mostCached = 32;
 
 /** One photograph: the file, what the service stored of it, and the traces made of it. */
-export class Photograph {
+export class Photograph implements Source {
+    readonly drawable = true;
     private readonly traces = new Map<string, Trace>();
 
     private constructor(
