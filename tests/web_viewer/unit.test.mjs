@@ -900,20 +900,24 @@ test("a gesture is sent without what was not drawn, its frame as a rectangle", (
     const drawing = {
         gesture: page.withStroke(page.nothingDrawn, "axis", axis),
         template: "auto",
+        form: "auto",
+        images: false,
         heightMm: undefined,
     };
-    assert.deepEqual(page.orderOf(drawing), { gesture: { axis }, template: "auto" });
+    assert.deepEqual(page.orderOf(drawing), { gesture: { axis }, template: "auto", form: "auto", images: false });
     const framed = page.withStroke(drawing.gesture, "frame", [
         [9, 2],
         [1, 12],
     ]);
-    const order = page.orderOf({ gesture: framed, template: "x", heightMm: 80 });
+    const order = page.orderOf({ gesture: framed, template: "x", form: "cup", images: true, heightMm: 80 });
     assert.deepEqual(order, {
         gesture: { axis, frame: [1, 2, 8, 10] },
         template: "x",
+        form: "cup",
+        images: true,
         height_m: 0.08,
     });
-    assert.deepEqual(page.orderOf(page.startOfDrawing), { template: "auto" });
+    assert.deepEqual(page.orderOf(page.startOfDrawing), { template: "auto", form: "auto", images: true });
 });
 
 test("strokes that correct add up, the two lines are drawn anew", () => {

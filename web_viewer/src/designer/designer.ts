@@ -157,7 +157,7 @@ export class Designer {
     async resume(): Promise<void> {
         const draft = await loadDraft();
         if (!draft || this.photograph || this.opening) return;
-        await this.open(draft.file, draft.drawing);
+        await this.open(draft.file, { ...startOfDrawing, ...draft.drawing });
         if (this.photograph) announce("The draft of the last visit is open again.");
     }
 
@@ -299,6 +299,10 @@ export class Designer {
             const heightMm = height.value === "" ? undefined : height.valueAsNumber;
             this.change({ heightMm });
         });
+        const form = byId<HTMLSelectElement>("form");
+        form.addEventListener("change", () => this.change({ form: form.value }));
+        const images = byId<HTMLInputElement>("images");
+        images.addEventListener("change", () => this.change({ images: images.checked }));
         byId("download-glb").addEventListener("click", () => {
             if (!this.file || !this.trace) return;
             const blob = new Blob([this.file], { type: "model/gltf-binary" });
@@ -411,8 +415,10 @@ export class Designer {
 
     /** Shows the drawing that the history is at, and traces it. */
     private restored(): void {
-        const { gesture, heightMm } = this.history.value;
+        const { gesture, heightMm, form, images } = this.history.value;
         this.sketch.gesture = gesture;
+        byId<HTMLSelectElement>("form").value = form;
+        byId<HTMLInputElement>("images").checked = images;
         byId<HTMLInputElement>("height").value = heightMm === undefined ? "" : String(heightMm);
         byId<HTMLButtonElement>("undo").disabled = !this.history.undoable;
         byId<HTMLButtonElement>("redo").disabled = !this.history.redoable;
@@ -577,11 +583,11 @@ export class Designer {
     }
 
     private say(place: PlaceOnPage, detail: string): void {
-        if (place === "height" || place === "template") {
+        if (place === "height" || place === "template" || place === "form") {
             const line = byId(`${place}-error`);
             line.hidden = false;
             line.textContent = detail;
-            if (place === "height") byId("height").setAttribute("aria-invalid", "true");
+            if (place !== "template") byId(place).setAttribute("aria-invalid", "true");
             // Without a trace the list of species is not shown.
             if (place === "template") byId("findings").hidden = false;
             return;
@@ -596,8 +602,8 @@ export class Designer {
     private clearErrors(): void {
         byId("gesture-errors").replaceChildren();
         for (const button of byId("tools").children) button.classList.remove("failed");
-        for (const place of ["height", "template"]) byId(`${place}-error`).hidden = true;
-        byId("height").removeAttribute("aria-invalid");
+        for (const place of ["height", "template", "form"]) byId(`${place}-error`).hidden = true;
+        for (const place of ["height", "form"]) byId(place).removeAttribute("aria-invalid");
     }
 
     /** Says why a file was not taken, beside where it was given. */

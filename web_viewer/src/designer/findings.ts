@@ -20,6 +20,7 @@ function leaning(value: number): string {
 const methods: Readonly<Record<string, string>> = {
     fitted: "outline and axis as measured",
     opened: "from the file of a species",
+    simplified: "with a plain stem, because the outline would cross itself",
     straightened: "bends less than on the photograph, because the stem would fold",
 };
 
@@ -36,6 +37,7 @@ export function rowsOf(trace: Trace, edited = false): [string, string, string][]
         add("Height", millimetres(size.height), "from the ground to the top");
         add("Cap", `${millimetres(size.cap)} across`, "greatest diameter");
     }
+    if (trace.form) add("Form", trace.form, "how it was traced");
     if (ring) {
         const meaning = `stands ${millimetres(ring.width_m)} out from the stem`;
         add("Ring", `${millimetres(ring.height_m)} high`, meaning);
@@ -86,14 +88,13 @@ export class Findings {
         byId("likeness").hidden = trace.nearest.length === 0;
         const auto = template === "auto";
         byId("template-auto").setAttribute("aria-pressed", String(auto));
-        const [first] = trace.nearest;
-        const used = auto ? first?.id : template;
+        const used = trace.template ?? template;
         byId("nearest").replaceChildren(
             ...trace.nearest.map((nearest) => this.button(nearest, nearest.id === used, auto)),
         );
-        const lender = trace.nearest.find(({ id }) => id === used)?.name ?? template;
+        const lender = trace.nearest.find(({ id }) => id === used)?.name ?? used;
         byId("nearest-used").textContent = auto
-            ? `All else comes from our ${lender}, which it is most like.`
+            ? `All else comes from our ${lender}, the most alike of its form.`
             : `All else comes from our ${lender}.`;
     }
 

@@ -25,6 +25,10 @@ export interface Drawing {
     gesture: Gesture;
     /** A species, or "auto" for the one that is most alike. */
     template: string;
+    /** What is looked for, or "auto" for what fits. */
+    form: string;
+    /** Cap and stem are painted with images from the photograph. */
+    images: boolean;
     /** Undefined for the height of the template. */
     heightMm: number | undefined;
     /** The outlines of all stages once a point was moved; undefined as traced. */
@@ -43,6 +47,8 @@ export const nothingDrawn: Gesture = { axis: [], cap: [], keep: [], drop: [], fr
 export const startOfDrawing: Drawing = {
     gesture: nothingDrawn,
     template: "auto",
+    form: "auto",
+    images: true,
     heightMm: undefined,
 };
 
@@ -147,11 +153,13 @@ export function missingLine(gesture: Gesture, cutOut: boolean): "axis" | "cap" |
 export interface TraceOrder {
     gesture?: Record<string, unknown>;
     template: string;
+    form: string;
+    images: boolean;
     height_m?: number;
 }
 
 /** Returns a drawing as the service reads it: what was not drawn is left out. */
-export function orderOf({ gesture, template, heightMm }: Drawing): TraceOrder {
+export function orderOf({ gesture, template, form, images, heightMm }: Drawing): TraceOrder {
     const { axis, cap, keep, drop } = gesture;
     const frame = rectangle(gesture.frame);
     const drawn = Object.entries({ axis, cap, keep, drop, frame: frame ?? [] }).filter(
@@ -160,11 +168,13 @@ export function orderOf({ gesture, template, heightMm }: Drawing): TraceOrder {
     return {
         ...(drawn.length > 0 ? { gesture: Object.fromEntries(drawn) } : {}),
         template,
+        form,
+        images,
         ...(heightMm === undefined ? {} : { height_m: heightMm / 1000 }),
     };
 }
 
-export type PlaceOnPage = Tool | "photo" | "height" | "template" | "outline";
+export type PlaceOnPage = Tool | "photo" | "height" | "template" | "form" | "outline";
 
 /** Returns what on the page a JSON pointer of the service is about, undefined if it is nothing that
  *  can be seen there. */
@@ -174,6 +184,7 @@ export function placeOf(pointer: string): PlaceOnPage | undefined {
     if (found) return found;
     if (pointer.startsWith("/views")) return "photo";
     if (pointer.startsWith("/height_m")) return "height";
+    if (pointer.startsWith("/form")) return "form";
     if (pointer.startsWith("/template")) return "template";
     return /^(\/model)?\/silhouette/.test(pointer) ? "outline" : undefined;
 }

@@ -38,6 +38,9 @@ export interface Trace {
     error_pct?: number;
     ring: { height_m: number; width_m: number } | null;
     nearest: Nearest[];
+    /** The species that lends all else; undefined for the file of a species. */
+    template?: string;
+    form?: string;
     method: string;
     /** Undefined until the service has tested the outline. */
     certificate?: { simple: boolean; method: string };
