@@ -24,6 +24,9 @@ constexpr int image_side = 512;
 /// A part of which less is seen has no image.
 constexpr double least_seen = 0.4;
 
+/// How far a place may stand out, in root mean squares of its row.
+constexpr double most_contrast = 2.0;
+
 /// A hue is quite another one by more steps: a brown cap may have a cream margin.
 constexpr int other_hue = 4;
 
@@ -233,6 +236,19 @@ class Round {
             details_.push_back(patch.light[row * columns_ + column] -
                                (sums[to] - sums[from]) / static_cast<double>(to - from));
         }
+        level(row);
+    }
+
+    /// Bounds what stands out from a row: a gleam is seen once on a mushroom, and spots are not all alike.
+    void level(std::size_t row) {
+        const auto first = details_.begin() + static_cast<std::ptrdiff_t>(row * columns_);
+        const auto last = first + static_cast<std::ptrdiff_t>(columns_);
+        double squares = 0.0;
+        for (auto detail = first; detail != last; ++detail) squares += glm::dot(*detail, *detail);
+        const double most = most_contrast * std::sqrt(squares / static_cast<double>(columns_));
+        for (auto detail = first; detail != last; ++detail)
+            if (const double contrast = glm::length(*detail); contrast > most)
+                *detail *= most / contrast;
     }
 
     /// Returns a place between the middles of rows or columns.
