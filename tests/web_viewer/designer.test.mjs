@@ -25,6 +25,7 @@ const cap = [
 ];
 
 let browser;
+let shared;
 let folder;
 let photograph;
 let cutOut;
@@ -48,18 +49,25 @@ before(async () => {
 after(() => browser?.close());
 
 /** Opens the page in a context of its own; `log` has its console messages and requests. */
-async function open(t, options = {}) {
-    const context = await browser.newContext({
-        viewport: { width: 800, height: 480 },
-        reducedMotion: "reduce",
-        ...options,
-    });
-    t.after(() => context.close());
+async function openAlone(options) {
+    const context = await browser.newContext({ reducedMotion: "reduce", ...options });
     const page = await context.newPage();
+    page.setDefaultTimeout(90_000);
     const log = logEvents(page);
     await page.goto(`${base}/editor`);
     await at(page, "empty");
     return { page, log };
+}
+
+/** Returns the page that most tests share, because software WebGL takes seconds for a new stage;
+ *  each of them begins with another file. Its log starts anew. */
+async function open(viewport = { width: 800, height: 480 }) {
+    shared ??= await openAlone({ viewport });
+    const { page, log } = shared;
+    await page.setViewportSize(viewport);
+    for (const list of Object.values(log)) list.length = 0;
+    await page.locator("details.numbers").evaluate((details) => (details.open = false));
+    return shared;
 }
 
 /** Waits until the page is empty, ready or failed. */
@@ -87,6 +95,7 @@ function onScreen(page, point) {
 }
 
 async function stroke(page, from, to) {
+    await page.locator("#sketch").scrollIntoViewIfNeeded();
     const [a, b] = [await onScreen(page, from), await onScreen(page, to)];
     await page.mouse.move(a.x, a.y);
     await page.mouse.down();
@@ -98,6 +107,7 @@ async function stroke(page, from, to) {
 async function drawLines(page) {
     await stroke(page, foot, top);
     await stroke(page, ...cap);
+    await page.locator("#sketch .outline").waitFor({ state: "attached" });
     await at(page, "ready");
 }
 
@@ -132,15 +142,21 @@ async function saved(page, button) {
 
 const traces = (log) => log.requests.filter((url) => url.endsWith("/v1/traces")).length;
 
-test("two lines on a photograph make a species with a model", async (t) => {
-    const { page, log } = await open(t, { viewport: { width: 1400, height: 880 } });
+test("two lines on a photograph make a species with a model", async () => {
+    const { page, log } = await open({ width: 1400, height: 880 });
     assert.match(await page.locator("footer").textContent(), /never for identifying mushrooms/);
+    const text = { name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no picture") };
+    await page.locator("#file").setInputFiles(text);
+    await at(page, "failed");
+    assert.ok(await page.locator("#welcome-error").textContent());
+    await open({ width: 1400, height: 880 });
     await give(page);
     assert.equal(await sentence(page), "Draw from the foot to the top");
     await stroke(page, foot, top);
     assert.equal(await sentence(page), "Now across the cap");
     assert.equal(traces(log), 0, "one line is not enough");
     await stroke(page, ...cap);
+    await page.locator("#sketch .outline").waitFor({ state: "attached" });
     await at(page, "ready");
     expectNear(await outline(page), [88, 40, 714, 715], 25);
     assert.equal(await page.locator("#sketch .mark").count(), 4);
@@ -172,8 +188,8 @@ test("two lines on a photograph make a species with a model", async (t) => {
     expectNoProblems(log);
 });
 
-test("another species lends the rest, its height can be chosen, and both can be undone", async (t) => {
-    const { page, log } = await open(t);
+test("another species lends the rest, its height can be chosen, and both can be undone", async () => {
+    const { page, log } = await open();
     await give(page);
     await drawLines(page);
     const second = page.locator("#nearest button").nth(1);
@@ -201,8 +217,8 @@ test("another species lends the rest, its height can be chosen, and both can be 
     expectNoProblems(log);
 });
 
-test("strokes correct the outline, and each gesture can be undone and done again", async (t) => {
-    const { page, log } = await open(t);
+test("strokes correct the outline, and each gesture can be undone and done again", async () => {
+    const { page, log } = await open();
     await give(page);
     await drawLines(page);
     const whole = await outline(page);
@@ -214,7 +230,6 @@ test("strokes correct the outline, and each gesture can be undone and done again
     await stroke(page, [40, 10], [760, 740]);
     await page.locator('#tools [data-tool="axis"]').click();
     await stroke(page, top, [380, 48]);
-    await at(page, "ready");
     const drawn = async () => Promise.all(["keep", "drop", "frame"].map((t) => strokes(page, t)));
     assert.deepEqual(await drawn(), [1, 1, 1]);
     await page.locator("details.numbers summary").click();
@@ -226,21 +241,23 @@ test("strokes correct the outline, and each gesture can be undone and done again
     assert.deepEqual(await drawn(), [0, 0, 0]);
     assert.deepEqual(await outline(page), whole);
     for (let step = 0; step < 2; ++step) await page.keyboard.press("Control+z");
-    await at(page, "ready");
     assert.equal(await strokes(page, "axis"), 0);
     assert.equal(await page.locator("#undo").isDisabled(), true);
     assert.equal(await sentence(page), "Draw from the foot to the top");
     for (let step = 0; step < 6; ++step) await page.keyboard.press("Control+y");
-    await at(page, "ready");
     assert.deepEqual(await drawn(), [1, 1, 1]);
     assert.equal(await page.locator("#redo").isDisabled(), true);
     expectNoProblems(log);
 });
 
-test("the keyboard alone draws both lines, and the table has the same points", async (t) => {
-    const { page, log } = await open(t);
-    page.on("filechooser", (chooser) => chooser.setFiles(photograph));
-    await page.locator("#choose").press("Enter");
+test("the keyboard alone draws both lines, and the table has the same points", async () => {
+    const { page, log } = await open();
+    page.once("filechooser", (chooser) => chooser.setFiles(photograph));
+    await Promise.all([
+        page.waitForResponse((response) => response.url().endsWith(".jpg")),
+        page.locator("#choose:visible, #another:visible").press("Enter"),
+    ]);
+    await page.locator("#sentence", { hasText: "Draw from the foot to the top" }).waitFor();
     await at(page, "ready");
     assert.equal(await page.evaluate(() => document.activeElement.id), "sketch");
     const go = async ([x, y]) => {
@@ -288,8 +305,8 @@ test("the keyboard alone draws both lines, and the table has the same points", a
     expectNoProblems(log);
 });
 
-test("fingers alone draw, on targets that they can hit", async (t) => {
-    const { page, log } = await open(t, {
+test("fingers alone draw, on targets that they can hit", async () => {
+    const { page, log } = await openAlone({
         viewport: { width: 800, height: 1000 },
         hasTouch: true,
         isMobile: true,
@@ -323,14 +340,15 @@ test("fingers alone draw, on targets that they can hit", async (t) => {
     expectNoProblems(log);
 });
 
-test("points of the outline are moved on the photograph, and a reload keeps the draft", async (t) => {
-    const { page, log } = await open(t);
+test("points of the outline are moved on the photograph, and a reload keeps the draft", async () => {
+    const { page, log } = await open();
     await give(page);
     await drawLines(page);
     const found = async (name) =>
         page.locator(`#found-numbers dt:text-is("${name}") + dd`).textContent();
     const traced = await found("Cap");
     await page.locator('#tools [data-tool="outline"]').click();
+    await page.locator("#sketch").scrollIntoViewIfNeeded();
     const focused = () =>
         page.evaluate(() => document.activeElement.getAttribute("aria-label") ?? "");
     assert.match(
@@ -388,8 +406,8 @@ test("points of the outline are moved on the photograph, and a reload keeps the 
     expectNoProblems(log);
 });
 
-test("the JSON of a species is opened, edited and saved again", async (t) => {
-    const { page, log } = await open(t);
+test("the JSON of a species is opened, edited and saved again", async () => {
+    const { page, log } = await open();
     const text = await (await fetch(`${base}/v1/species/boletus_edulis`)).text();
     const file = { mimeType: "application/json", buffer: Buffer.from(text) };
     await page.locator("#file").setInputFiles({ ...file, name: "cep.json" });
@@ -453,12 +471,8 @@ test("the page lets no point go where the service refuses the outline", async ()
     assert.ok(stops > 20, `only ${stops} drags were stopped`);
 });
 
-test("what the service refuses stands beside what it is about, in its words", async (t) => {
-    const { page } = await open(t);
-    const text = { name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no picture") };
-    await page.locator("#file").setInputFiles(text);
-    await at(page, "failed");
-    assert.ok(await page.locator("#welcome-error").textContent());
+test("what the service refuses stands beside what it is about, in its words", async () => {
+    const { page } = await open();
     await give(page);
     await stroke(page, [30, 700], [40, 720]);
     await stroke(page, [20, 705], [50, 705]);
@@ -483,8 +497,8 @@ test("what the service refuses stands beside what it is about, in its words", as
     assert.equal(await page.locator("#height-error").isVisible(), false);
 });
 
-test("a forgotten photograph is sent again, and one that is cut out needs no line", async (t) => {
-    const { page, log } = await open(t);
+test("a forgotten photograph is sent again, and one that is cut out needs no line", async () => {
+    const { page, log } = await open();
     const [stored] = await Promise.all([
         page.waitForResponse((response) => response.url().endsWith("/v1/photos")),
         give(page),
@@ -504,8 +518,8 @@ test("a forgotten photograph is sent again, and one that is cut out needs no lin
     assert.equal(await page.locator("#sketch .outline").count(), 1);
 });
 
-test("the viewer leads to the designer and back", async (t) => {
-    const { page } = await open(t);
+test("the viewer leads to the designer and back", async () => {
+    const { page } = await open();
     assert.equal(await page.locator("header nav a").first().getAttribute("href"), "./");
     await page.goto(`${serverUrl()}/`, { waitUntil: "commit" });
     await page.locator("#mode-designer").click();

@@ -36,7 +36,7 @@ export class LiveModel {
     }
 
     /** Shows a model: as a draft coarse and with small images, otherwise as the file that can be
-     *  saved. A draft that is on its way is completed first, so that a long drag shows something. */
+     *  saved. A draft that is on its way is completed first: a long drag shows something. */
     show(model: unknown, { draft = false, refit = false } = {}): void {
         this.next = { text: JSON.stringify(model), draft, refit: refit || !!this.next?.refit };
         if (this.active && (!draft || !this.active.wanted.draft)) this.stop();
