@@ -523,6 +523,6 @@ test("the viewer leads to the designer and back", async () => {
     assert.equal(await page.locator("header nav a").first().getAttribute("href"), "./");
     await page.goto(`${serverUrl()}/`, { waitUntil: "commit" });
     await page.locator("#mode-designer").click();
-    await at(page, "empty");
-    assert.match(page.url(), /\/editor$/);
+    await page.waitForURL(/\/editor$/, { waitUntil: "commit" });
+    await page.locator("#choose").waitFor({ state: "attached" });
 });

@@ -127,7 +127,7 @@ TEST_F(TraceRoutes, NameWhatIsWrong) {
     EXPECT_TRUE(names(unknown, "/template", "boletus_edulis"));
     const Response coral = trace(order(photo, true, R"(,"template":"artomyces_pyxidatus")"));
     expect_problem(coral, 422);
-    EXPECT_TRUE(names(coral, "/template", "no stem"));
+    EXPECT_TRUE(names(coral, "/template", "no outline"));
     const Response high = trace(order(photo, true, R"(,"height_m":3)"));
     expect_problem(high, 400);
     EXPECT_TRUE(names(high, "/height_m", "0.002..1"));

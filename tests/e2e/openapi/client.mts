@@ -36,6 +36,7 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
 
     await both(client.HEAD("/", {}), client.GET("/", text));
     await both(client.HEAD("/docs", {}), client.GET("/docs", text));
+    await both(client.HEAD("/editor", {}), client.GET("/editor", text));
     const asset = { params: { path: { name: "favicon.svg" } } };
     await both(client.HEAD("/assets/{name}", asset), client.GET("/assets/{name}", { ...asset, ...text }));
     await both(client.HEAD("/livez", {}), client.GET("/livez", text));
