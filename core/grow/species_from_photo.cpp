@@ -85,6 +85,29 @@ trace::Traced scaled(trace::Traced traced, double factor) {
     return traced;
 }
 
+/// Returns the form of what is on a mask: the requested one, the one that fits the outline, or if that cannot be
+/// grown the first that can.
+trace::Form form_on(const trace::Mask& mask, const trace::Gesture& gesture,
+                    const trace::TraceParams& params) {
+    try {
+        return trace::traced(mask, gesture, params).form;
+    } catch (const Impossible&) {
+        if (params.form != trace::Form::automatic) throw;
+        using trace::Form;
+        for (const Form form :
+             {Form::cup, Form::puffball, Form::funnel, Form::capped, Form::club, Form::morel}) {
+            trace::TraceParams other = params;
+            other.form = form;
+            try {
+                return trace::traced(mask, gesture, other).form;
+            } catch (const InvalidInput&) {
+                continue;
+            }
+        }
+        throw;
+    }
+}
+
 /// Returns the species that lends what the photograph does not show, and the age of the mushroom as it would
 /// be one of these: the nearest that is traced by the same form, or else one with the same parts.
 NearSpecies chosen_template(const trace::Form form, const Atlas& atlas,
@@ -179,17 +202,16 @@ SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mas
         const Picture large = trace::reduced(photo, trace::large_side);
         SpeciesFromPhoto found;
         found.nearest = nearest.find(trace::likeness_of(large, mask), atlas.entries().size());
+        // Without a template, the form decides what can be one; otherwise the template has one.
         const bool is_any = spec.template_id.view() == "auto";
-        // Which form it is decides what can be its template.
-        const NearSpecies chosen =
-            is_any ? chosen_template(trace::traced(mask, gesture, {.form = spec.form}).form, atlas,
-                                     found.nearest)
-                   : named_template(spec.template_id, found.nearest);
+        const trace::Form form = is_any ? form_on(mask, gesture, {.form = spec.form}) : spec.form;
+        const NearSpecies chosen = is_any ? chosen_template(form, atlas, found.nearest)
+                                          : named_template(spec.template_id, found.nearest);
         found.template_id = chosen.id;
         found.nearest.resize(std::min(found.nearest.size(), most_named));
         const Species& lender = atlas.find(chosen.id)->species;
         trace::TraceParams params = trace::params_like(lender, chosen.age, 0.1);
-        if (spec.form != trace::Form::automatic) params.form = spec.form;
+        if (form != trace::Form::automatic) params.form = form;
         if (spec.hollow) params.hollow = *spec.hollow;
         const bool has_height = trace::can_be_template(lender, trace::has_face(params.form));
         params.height_m = spec.height_m.value_or(has_height ? trace::height_at(lender, chosen.age)

@@ -6,6 +6,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/spline.h"
+#include "core/problems.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint::trace {
@@ -191,7 +192,16 @@ FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis, const M
         controls.cap = seen.size() > 1 ? chosen(seen, cap) : seen;
         controls.cap.insert(controls.cap.end(), hidden.begin(), hidden.end());
         found.silhouette = controls.silhouette(scale);
-        const Outline outline = Outline::unproven(found.silhouette, "/silhouette");
+        Outline outline;
+        try {
+            outline = Outline::unproven(found.silhouette, "/silhouette");
+        } catch (const Impossible&) {
+            // A spline through few points may swing through the axis where one through more does not.
+            if (std::min({stem, face, cap}) >= most_points) throw;
+            for (std::size_t* count : {&stem, &face, &cap})
+                *count = std::min(*count + 1, most_points);
+            continue;
+        }
         const double of_stem = error_of(profile.stem, outline.stem, scale),
                      of_face = profile.face.empty()
                                    ? 0.0

@@ -149,12 +149,14 @@ struct FittedProfile {
     bool has_plain_stem = false;
 };
 
-/// Replaces a stem by one that is nearly as wide below as above.
+/// Replaces a stem by one that is nearly as wide below as above, and meets the rest at an angle.
 void make_stem_plain(Profile& profile) {
     constexpr double below = 0.9;  // of the radius above
     const glm::dvec2 top = profile.stem.back();
     profile.stem = {{below * top.x, 0.0}, {0.5 * (below + 1.0) * top.x, 0.5 * top.y}, top};
     profile.has_foot = false;
+    // A smooth join with a short stem could swing through the axis.
+    profile.has_corner = true;
 }
 
 /// Returns the profile and its spline. If the outline would touch itself, a hollow is less deep than stated, and

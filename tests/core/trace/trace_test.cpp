@@ -136,7 +136,7 @@ TEST(Traced, IsOfTheFormThatFitsUnlessOneIsStated) {
     EXPECT_EQ(trace::traced(capped.mask(), capped.gesture(), {}).form, trace::Form::capped);
 }
 
-TEST(Traced, HasAPlainStemWhereTheOutlineWouldCrossItself) {
+TEST(Traced, HasMorePointsWhereASplineThroughFewWouldCrossItself) {
     // A hammer on a thread, with a splinter.
     trace::Mask mask(200, 200);
     const auto add = [&](const trace::Stroke& line, double width) {
@@ -150,6 +150,16 @@ TEST(Traced, HasAPlainStemWhereTheOutlineWouldCrossItself) {
     gesture.axis = {{101, 170}, {91, 138}, {108, 105}, {98, 73}, {95, 40}};
     const trace::Traced found =
         trace::traced(trace::without_holes(mask), gesture, {0.1, trace::Form::club});
+    EXPECT_NE(found.method, trace::TraceMethod::simplified);
+    EXPECT_NO_THROW(static_cast<void>(Outline(found.shape.silhouette)));
+}
+
+TEST(Traced, HasAPlainStemWhereTheOutlineWouldCrossItself) {
+    // A cup without a stem, traced as a funnel.
+    const Photograph photo =
+        photograph({"sarcoscypha_austriaca", 0.75, 2, View::front, 384}, Scenery::plain);
+    const trace::Gesture gesture{trace::upright_line(photo.truth), {}, {}, {}, {}};
+    const trace::Traced found = trace::traced(photo.truth, gesture, {0.03, trace::Form::funnel});
     EXPECT_EQ(found.method, trace::TraceMethod::simplified);
     EXPECT_NO_THROW(static_cast<void>(Outline(found.shape.silhouette)));
 }
