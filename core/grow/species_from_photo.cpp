@@ -85,12 +85,12 @@ trace::Traced scaled(trace::Traced traced, double factor) {
     return traced;
 }
 
-/// Returns the form of what is on a mask: the requested one, the one that fits the outline, or if that cannot be
-/// grown the first that can.
-trace::Form form_on(const trace::Mask& mask, const trace::Gesture& gesture,
-                    const trace::TraceParams& params) {
+/// Traces what is on a mask: by the stated form or the one that fits the outline, or if that cannot be grown by the
+/// first that can.
+trace::Traced traced_by_any_form(const trace::Mask& mask, const trace::Gesture& gesture,
+                                 const trace::TraceParams& params) {
     try {
-        return trace::traced(mask, gesture, params).form;
+        return trace::traced(mask, gesture, params);
     } catch (const Impossible&) {
         if (params.form != trace::Form::automatic) throw;
         using trace::Form;
@@ -99,13 +99,22 @@ trace::Form form_on(const trace::Mask& mask, const trace::Gesture& gesture,
             trace::TraceParams other = params;
             other.form = form;
             try {
-                return trace::traced(mask, gesture, other).form;
+                return trace::traced(mask, gesture, other);
             } catch (const InvalidInput&) {
                 continue;
             }
         }
         throw;
     }
+}
+
+/// Returns a trace of another height.
+trace::Traced resized(trace::Traced traced, double factor) {
+    Silhouette& silhouette = traced.shape.silhouette;
+    for (auto* part : {&silhouette.stem, &silhouette.hymenium, &silhouette.cap})
+        for (OutlinePoint& point : *part) point = {point.r * factor, point.y * factor};
+    if (traced.ring) traced.ring = {traced.ring->height_m * factor, traced.ring->width_m * factor};
+    return traced;
 }
 
 /// Returns the species that lends what the photograph does not show, and the age of the mushroom as it would
@@ -204,19 +213,27 @@ SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mas
         found.nearest = nearest.find(trace::likeness_of(large, mask), atlas.entries().size());
         // Without a template, the form decides what can be one; otherwise the template has one.
         const bool is_any = spec.template_id.view() == "auto";
-        const trace::Form form = is_any ? form_on(mask, gesture, {.form = spec.form}) : spec.form;
-        const NearSpecies chosen = is_any ? chosen_template(form, atlas, found.nearest)
+        std::optional<trace::Traced> first;
+        if (is_any) first = traced_by_any_form(mask, gesture, {.form = spec.form});
+        const NearSpecies chosen = is_any ? chosen_template(first->form, atlas, found.nearest)
                                           : named_template(spec.template_id, found.nearest);
         found.template_id = chosen.id;
         found.nearest.resize(std::min(found.nearest.size(), most_named));
         const Species& lender = atlas.find(chosen.id)->species;
         trace::TraceParams params = trace::params_like(lender, chosen.age, 0.1);
-        if (form != trace::Form::automatic) params.form = form;
+        if (first)
+            params.form = first->form;
+        else if (spec.form != trace::Form::automatic)
+            params.form = spec.form;
         if (spec.hollow) params.hollow = *spec.hollow;
         const bool has_height = trace::can_be_template(lender, trace::has_face(params.form));
         params.height_m = spec.height_m.value_or(has_height ? trace::height_at(lender, chosen.age)
                                                             : params.height_m);
-        const trace::Traced traced = trace::traced(mask, gesture, params);
+        // Only the depth of a hollow depends on the template.
+        const trace::Traced traced =
+            first && !trace::is_hollow(first->form)
+                ? resized(*first, params.height_m / trace::TraceParams{}.height_m)
+                : trace::traced(mask, gesture, params);
         found.whole = trace::whole_species(lender, traced.shape, chosen.age);
         trace::give_colours(found.whole.species, found.whole.stage,
                             trace::part_colours(large, mask, traced));
