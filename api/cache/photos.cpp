@@ -25,6 +25,15 @@ std::string random_name() {
     return text;
 }
 
+/// Returns the size of a cut: a mask of the large working copy.
+std::size_t mask_bytes(const StoredPhoto& photo) {
+    const auto width = static_cast<std::size_t>(photo.width),
+               height = static_cast<std::size_t>(photo.height);
+    const std::size_t longest = std::max({width, height, std::size_t{1}}),
+                      side = std::min(longest, std::size_t{trace::large_side});
+    return (width * side / longest + 1) * (height * side / longest + 1);
+}
+
 }  // namespace
 
 void Photos::drop_expired(Time now) {
@@ -41,9 +50,8 @@ std::list<Photos::Entry>::iterator Photos::entry(std::string_view name, Time now
 }
 
 std::string Photos::insert(StoredPhoto photo, Time now) {
-    // A cut is a mask of the large working copy.
-    constexpr std::size_t most_mask = std::size_t{trace::large_side} * trace::large_side;
-    const std::size_t bytes = photo.jpeg.size + most_mask;
+    const std::size_t bytes =
+        photo.jpeg.size + mask_bytes(photo) + (photo.cut_out ? photo.cut_out->inside.size() : 0);
     Entry added{random_name(), std::make_shared<const StoredPhoto>(std::move(photo)), nullptr,
                 bytes, now + lifetime};
     std::string name = added.name;

@@ -45,9 +45,11 @@ struct Store {
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
-    /// A photograph is decoded by the holder of one: decoders take up to 100 MB each, so two run at once,
+    /// A photograph is decoded by the holder of one: decoders take up to 200 MB each, so two run at once,
     /// whatever the number of threads.
     std::array<std::mutex, 2> decoders;
+    std::atomic<std::uint64_t> photographs{
+        0};                                 ///< their number so far; part of the keys of their jobs
     std::atomic<std::uint64_t> uploads{0};  ///< their number so far; part of the keys of their jobs
 };
 

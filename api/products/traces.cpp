@@ -253,16 +253,24 @@ void add_schemas(Value& schemas, const Atlas&) {
              {"marks", described(objects({{"junctions", line}, {"margins", line}}),
                                  "Where stem and lower face meet, and the margin of the cap: left "
                                  "and right.")},
-             {"angles", objects({{"lean_deg", number}, {"bend_deg", number}})},
+             {"angles",
+              described(objects({{"lean_deg", number}, {"bend_deg", number}}),
+                        "Of the line from the foot to the top of the stem, to the right where "
+                        "positive; between the directions of the axis at the foot and at the "
+                        "cap.")},
              {"asymmetry_pct",
               described(number, "Half the mean distance between both sides, in % of the height.")},
              {"error_pct", described(number,
                                      "Greatest distance of the species' outline from the "
                                      "photographed one, in % of the height.")},
-             {"ring", or_null(objects({{"height_m", number}, {"width_m", number}}))},
+             {"ring",
+              described(or_null(objects({{"height_m", number}, {"width_m", number}})),
+                        "How high above the foot a ring is, and how far it stands out from the "
+                        "stem.")},
              {"nearest", described(list_of(near),
-                                   "The species that it looks like, the nearest "
-                                   "first: no identification.")},
+                                   "The species that it looks like, the nearest first: no "
+                                   "identification. How far outlines differ, in % of the height, "
+                                   "and colours, as a distance in L*a*b* with L* halved.")},
              {"template", described(text,
                                     "The species that lends what the photograph does not "
                                     "show.")},
@@ -271,11 +279,16 @@ void add_schemas(Value& schemas, const Atlas&) {
                                   "fitted; straightened: the stem would fold as it is bent on the "
                                   "photograph; simplified: the outline would cross itself.")},
              {"certificate", reference("schemas/certificate")},
-             {"likeness", described(number,
-                                    "How far other ages have the proportions of the "
-                                    "photographed one.")},
-             {"warnings", list_of(warning)},
-             {"stage", described(whole, "The stage of the species that was photographed.")},
+             {"likeness",
+              described(
+                  number,
+                  "How far other ages have the proportions of the photographed one, 0 to 1.")},
+             {"warnings", described(list_of(warning),
+                                    "asymmetry, method, likeness or images, each with a "
+                                    "sentence.")},
+             {"stage", described(whole,
+                                 "The stage of the species that was photographed, from "
+                                 "0.")},
              {"species", reference("schemas/species")}}));
     schemas.set(
         "outline_check",
@@ -288,7 +301,11 @@ void add_schemas(Value& schemas, const Atlas&) {
 void add_bodies(Value& bodies, const Atlas&) {
     const auto pixel = [](double x, double y) { return Value(Value::Array{x, y}); };
     Value order = schema<trace::TraceSpec>();
-    order.set("required", Value(Value::Array{"views"}));
+    const auto require = [](Value& object, const char* member) -> Value& {
+        object.set("required", Value(Value::Array{member}));
+        return *object.find("properties")->find(member);
+    };
+    static_cast<void>(require(require(require(order, "views"), "side"), "photo"));
     bodies.set(
         "trace_order",
         json_body(

@@ -33,10 +33,10 @@ auto with_paths_of_spec(Steps steps) {
             const std::string_view path = problem.path;
             if (path.starts_with("/gesture") || path.starts_with("/photo"))
                 problem.path.insert(0, "/views/side");
-            else if (path.starts_with("/silhouette"))
-                problem = {"/views/side", "what is on these lines cannot be grown, because " +
-                                              problem.message +
-                                              "; draw them anew, or choose another form"};
+            else if (path.starts_with("/silhouette") || path.starts_with("/model"))
+                problem = {"/views/side",
+                           "what is on these lines cannot be grown, because its outline crosses "
+                           "itself or the axis; draw them anew, or choose another form"};
         }
         throw Impossible(std::move(problems));
     }

@@ -222,6 +222,27 @@ Picture upright(const Picture& picture, int orientation) {
     return found;
 }
 
+std::uint64_t declared_photo_pixels(File file) {
+    std::uint64_t found = 0;
+    if (has(file, 0, "\xFF\xD8\xFF")) {
+        each_segment(file, [&](std::uint8_t marker, File content) {
+            // All frames but those of tables that share their range.
+            const bool is_frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 &&
+                                  marker != 0xC8 && marker != 0xCC;
+            if (!is_frame || content.size() < 5) return true;
+            found = std::uint64_t{number(content, 1, 2)} * number(content, 3, 2);
+            return false;
+        });
+    } else if (has(file, 12, "IHDR") && file.size() >= 24) {
+        found = std::uint64_t{number(file, 16, 4)} * number(file, 20, 4);
+    } else {
+        int width = 0, height = 0;
+        if (WebPGetInfo(file.data(), file.size(), &width, &height) != 0)
+            found = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    }
+    return found;
+}
+
 LayeredPicture decoded_layers(File file, int longest_side, const std::string& path) {
     if (file.size() > most_photo_bytes)
         refuse(path, "the file has " + std::to_string(file.size()) + " bytes; at most " +

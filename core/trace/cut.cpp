@@ -282,9 +282,10 @@ Mask refined(const Picture& large, const Mask& small, const Colours& colours, co
     return mask;
 }
 
-/// Returns what is left of a cut without holes, spurs and parts that no stroke touches.
+/// Returns what is left of a cut without holes, spurs and parts that no stroke touches: its largest part.
 Mask cleaned(const Mask& mask, const Mask& strokes) {
-    return connected_with(opened(without_holes(connected_with(mask, strokes))), strokes);
+    return largest_part(
+        connected_with(opened(without_holes(connected_with(mask, strokes))), strokes));
 }
 
 void require_axis_on(const Picture& photo, const Gesture& gesture) {

@@ -252,7 +252,7 @@ struct CapLine {
     [[nodiscard]] std::size_t apex(const CapFrame& frame) const {
         for (std::size_t i = 1; i + 1 < points.size(); ++i)
             if (frame.local(points[i]).x >= 0.0) return i;
-        return points.size() - 2;
+        return points.size() - std::min<std::size_t>(points.size(), 2);
     }
 };
 
@@ -336,6 +336,9 @@ bool has_cap(const Marks& marks) {
     return stem < 0.95 * cap;
 }
 
+/// A side of fewer points has no parts.
+constexpr std::size_t least_points = 8;
+
 /// Returns the sides of a mushroom, marked as those of a capped one.
 Marks marked(const Contour& contour, const TracedAxis& axis, double height) {
     Marks marks;
@@ -348,6 +351,9 @@ Marks marked(const Contour& contour, const TracedAxis& axis, double height) {
         const double sign = k == 0 ? -1.0 : 1.0;
         // The mushroom is on the right hand of the contour, so that its left side goes up.
         side.points = walked(contour, foot, apex, k == 0);
+        if (side.points.size() < least_points)
+            throw InvalidInput("/gesture/axis",
+                               "does not lead from the foot of what is on it to its top");
         for (const glm::dvec2& point : side.points) {
             const glm::dvec2 at = axis.local(point);
             side.local.emplace_back(sign * at.x, at.y);

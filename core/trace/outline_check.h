@@ -26,6 +26,10 @@ struct OutlineSpec {
                    .doc = "Control points of the axis from the root to the top of the stem, in "
                           "stem heights; none for a straight one."});
     }
+    /// Reports a missing outline.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (silhouette == Silhouette{}) report(problems, path + "/silhouette", "is missing");
+    }
     bool operator==(const OutlineSpec&) const = default;
 };
 

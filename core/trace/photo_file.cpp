@@ -1,6 +1,7 @@
 #include "core/trace/photo_file.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sporeprint::trace {
 
@@ -54,17 +55,26 @@ LayeredPicture bordered(const LayeredPicture& of, int border) {
 }  // namespace
 
 PhotoFile decoded_photo(std::span<const std::uint8_t> file, const std::string& path) {
-    LayeredPicture from = decoded_layers(file, decoded_side, path);
+    // A JPEG file is decoded at up to twice the size that is needed, and then made smaller by means of areas.
+    LayeredPicture from = decoded_layers(file, 2 * decoded_side - 1, path);
     if (!is_cut_out(from.alpha)) return {reduced(from.picture, decoded_side), std::nullopt};
-    if (reaches_border(from))
-        from = bordered(from, 2 + std::max(from.picture.width, from.picture.height) / 50);
-    PhotoFile found{reduced(from.picture, decoded_side), std::nullopt};
-    Picture grey{from.picture.width, from.picture.height, Bytes(from.picture.rgb.size())};
-    for (std::size_t i = 0; i < grey.rgb.size(); ++i) grey.rgb[i] = from.alpha[i / 3];
-    const Picture alpha = reduced(grey, decoded_side);
-    found.cut_out = Mask(alpha.width, alpha.height);
+    // A border is 2 % of the longest side, at each of its ends.
+    const bool has_border = reaches_border(from);
+    const int side = has_border ? decoded_side * 24 / 25 : decoded_side;
+    LayeredPicture small{reduced(from.picture, side), {}};
+    from.picture.rgb = {};
+    Picture grey{from.picture.width, from.picture.height, {}};
+    grey.rgb.reserve(3 * from.alpha.size());
+    for (const std::uint8_t alpha : from.alpha) grey.rgb.insert(grey.rgb.end(), 3, alpha);
+    const Picture alpha = reduced(grey, side);
+    small.alpha.reserve(alpha.rgb.size() / 3);
+    for (std::size_t i = 0; i < alpha.rgb.size(); i += 3) small.alpha.push_back(alpha.rgb[i]);
+    if (has_border)
+        small = bordered(small, 2 + std::max(small.picture.width, small.picture.height) / 50);
+    PhotoFile found{std::move(small.picture), Mask(0, 0)};
+    found.cut_out = Mask(found.picture.width, found.picture.height);
     for (std::size_t i = 0; i < found.cut_out->inside.size(); ++i)
-        found.cut_out->inside[i] = alpha.rgb[3 * i] >= half_opaque ? 1 : 0;
+        found.cut_out->inside[i] = small.alpha[i] >= half_opaque ? 1 : 0;
     return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <string>
 #include <utility>
@@ -37,6 +38,22 @@ Extent extent_of(const Mask& mask) {
                 extent = {std::min(extent.left, x), std::min(extent.top, y),
                           std::max(extent.right, x), std::max(extent.bottom, y)};
     return extent;
+}
+
+/// Requires that a mask has no more border than a mushroom: time grows with it.
+void require_plain_border(const Mask& mask, const Extent& extent) {
+    constexpr std::int64_t most_heights = 40;
+    std::int64_t edges = 0;
+    for (int y = extent.top; y <= extent.bottom; ++y)
+        for (int x = extent.left; x <= extent.right; ++x) {
+            if (!mask.at(x, y)) continue;
+            for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+                edges += mask.at(x + dx, y + dy) ? 0 : 1;
+        }
+    if (edges > most_heights * (extent.bottom - extent.top + 1))
+        throw InvalidInput("/photo", "the border of the mushroom is " + std::to_string(edges) +
+                                         " pixels long, more than " + std::to_string(most_heights) +
+                                         " times its height");
 }
 
 void require_whole(const Mask& mask, const Extent& extent) {
@@ -192,6 +209,7 @@ Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& param
     require_valid(params);
     const Extent extent = extent_of(mask);
     require_whole(mask, extent);
+    require_plain_border(mask, extent);
     const double height = extent.bottom - extent.top + 1.0;
     const auto [contour, axis, marks] = found_in(mask, gesture.axis, height, params.form);
     const auto [profile, fitted, has_plain_stem] =
@@ -213,6 +231,7 @@ Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& param
     found.lean_deg = angle_of(points.front(), points.back());
     found.bend_deg = std::abs(angle_of(points[points.size() - 2], points.back()) -
                               angle_of(points[0], points[1]));
+    if (found.bend_deg > 180.0) found.bend_deg = 360.0 - found.bend_deg;
     const double scale = params.height_m / height;
     if (profile.ring)
         found.ring = RingMeasure{profile.ring->height * scale, profile.ring->width * scale};

@@ -33,7 +33,9 @@ struct GestureSpec {
                              .unit = "px",
                              .max = 2048,
                              .most = most_points,
-                             .doc = "A line from the foot to the top of the mushroom."});
+                             .doc = "A line from the foot to the top of the mushroom, at least two "
+                                    "points, in pixels of the stored photograph, x to the right "
+                                    "and y down from its upper left corner."});
         visit(&G::cap, Info{.name = "cap",
                             .unit = "px",
                             .max = 2048,
@@ -79,10 +81,11 @@ struct ViewSpec {
               Info{.name = "photo",
                    .most = 22,
                    .doc = "Name of an uploaded photograph, as POST /v1/photos gives it."});
-        visit(&ViewSpec::gesture,
-              Info{.name = "gesture",
-                   .doc = "Where the mushroom is; may be left out for a picture that is cut out "
-                          "already."});
+        visit(
+            &ViewSpec::gesture,
+            Info{.name = "gesture",
+                 .doc = "Where the mushroom is, by at most 16 lines; may be left out for a picture "
+                        "that is cut out already."});
     }
     bool operator==(const ViewSpec&) const = default;
 };
@@ -114,8 +117,8 @@ struct TraceSpec {
               Info{.name = "template",
                    .most = 48,
                    .doc = "The species that lends all that the photograph does not show: other "
-                          "ages, the lower face, ornaments, spread. auto: the one that it looks "
-                          "like most."});
+                          "ages, the lower face, ornaments, spread. auto: of those of its form "
+                          "the one that it looks like most."});
         visit(&T::id, Info{.name = "id", .most = 48, .doc = "Id of the new species."});
         visit(&T::form, Info{.name = "form",
                              .doc = "What is looked for: capped (stem and cap), funnel (hollow "

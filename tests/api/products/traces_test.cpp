@@ -6,6 +6,7 @@
 #include "core/surface/codecs.h"
 #include "tests/api/support.h"
 #include "tests/support/drawn_mushroom.h"
+#include "tests/support/small_atlas.h"
 
 namespace sporeprint::api::products_traces_test {
 namespace {
@@ -16,7 +17,7 @@ using namespace test;
 class TraceRoutes : public testing::Test {
   protected:
     static Service& service() {
-        static Service one(built_in_atlas(), ServiceOptions{});
+        static Service one(small_atlas(), ServiceOptions{});
         return one;
     }
     static Response ask(const Request& one) { return handle(service(), one); }
@@ -158,6 +159,12 @@ TEST_F(TraceRoutes, CheckOutlines) {
     expect_problem(open, 422);
     EXPECT_TRUE(names(open, "/silhouette"));
     expect_problem(ask(post(R"({"outline":{}})", "/v1/outlines/check")), 400);
+    for (const char* body : {"{}", R"({"axis":[]})"}) {
+        const Response missing = ask(post(body, "/v1/outlines/check"));
+        expect_problem(missing, 400);
+        EXPECT_TRUE(names(missing, "/silhouette", "is missing")) << body;
+    }
+    expect_problem(ask(post(R"({"silhouette":{}})", "/v1/outlines/check")), 422);
 }
 
 }  // namespace

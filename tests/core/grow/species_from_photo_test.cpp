@@ -11,6 +11,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/photographs.h"
 #include "tests/support/refusals.h"
+#include "tests/support/small_atlas.h"
 
 namespace sporeprint::grow_species_from_photo_test {
 namespace {
@@ -20,7 +21,7 @@ LazyNearestSpecies& lazy() {
     return made;
 }
 
-const NearestSpecies& nearest() { return lazy().get(atlas(), in_turn); }
+const NearestSpecies& nearest() { return lazy().get(*small_atlas(), in_turn); }
 
 const Photograph& bolete() {
     static const Photograph made =
@@ -39,7 +40,7 @@ trace::TraceSpec spec_of(const trace::Gesture& gesture) {
 SpeciesFromPhoto found_in(const Photograph& photo, const trace::TraceSpec& spec,
                           const std::optional<trace::Mask>& cut_out) {
     return species_from_photo(photo.picture, mushroom_on(photo.picture, cut_out, spec), spec,
-                              atlas(), nearest());
+                              *small_atlas(), nearest());
 }
 
 double height_of(const Stage& stage) {

@@ -176,6 +176,35 @@ TEST(Traced, NamesWhatItDoesNotFind) {
     EXPECT_TRUE(names(problems_of({0.1, trace::Form::cup, 1.5}), "/hollow", "0.95"));
 }
 
+TEST(Traced, RefusesABorderThatIsTooLong) {
+    // Thin teeth on a bar.
+    trace::Mask mask(600, 600);
+    for (int y = 10; y < 590; ++y)
+        for (int x = 10; x < 590; ++x)
+            mask.inside[mask.index(x, y)] = x % 2 == 0 || y > 560 ? 1 : 0;
+    trace::Gesture gesture;
+    gesture.axis = {{300, 580}, {300, 20}};
+    EXPECT_TRUE(names(refusal([&] { static_cast<void>(trace::traced(mask, gesture, {})); }),
+                      "/photo", "times its height"));
+}
+
+TEST(Traced, RefusesALineThatLeadsNowhere) {
+    // Two parts: the border is that of the upper one, which the line is not on.
+    trace::Mask mask(400, 400);
+    for (int y = 200; y < 380; ++y)
+        for (int x = 100; x < 200; ++x) mask.inside[mask.index(x, y)] = 1;
+    for (int y = 20; y < 26; ++y)
+        for (int x = 300; x < 306; ++x) mask.inside[mask.index(x, y)] = 1;
+    trace::Gesture gesture;
+    gesture.axis = {{150, 370}, {150, 210}};
+    for (const trace::Form form : {trace::Form::club, trace::Form::morel, trace::Form::puffball})
+        EXPECT_TRUE(names(refusal([&] {
+                              static_cast<void>(trace::traced(mask, gesture, {0.1, form}));
+                          }),
+                          "/gesture/axis", "does not lead"))
+            << trace::name(form);
+}
+
 RC_GTEST_PROP(Traced, AnyMaskAndLineIsTracedOrRefusedByName, ()) {
     // Discs and bars at random places, and a line anywhere.
     trace::Mask mask(200, 200);

@@ -10,17 +10,23 @@ const margin = 60;
 /** The age at which most stages are mature. */
 const matureAge = 0.6;
 
+/** Metres, as the service takes them. */
+function isWithin(value: unknown, least: number, most: number): boolean {
+    return typeof value === "number" && value >= least && value <= most;
+}
+
 function isOutline(value: unknown): value is Silhouette {
     const parts = value as Partial<Silhouette> | undefined;
     const isCurve = (curve: unknown, fewest: number): boolean =>
         Array.isArray(curve) &&
         curve.length >= fewest &&
-        curve.every(
-            (point: unknown) =>
-                Number.isFinite((point as { r?: unknown } | null)?.r) &&
-                Number.isFinite((point as { y?: unknown } | null)?.y),
-        );
-    return isCurve(parts?.stem, 2) && isCurve(parts?.hymenium ?? [], 0) && isCurve(parts?.cap, 2);
+        curve.every((point: unknown) => {
+            const { r, y } = (point ?? {}) as { r?: unknown; y?: unknown };
+            return isWithin(r, 0, 1) && isWithin(y, -0.5, 2);
+        });
+    const isWhole =
+        isCurve(parts?.stem, 2) && isCurve(parts?.hymenium ?? [], 0) && isCurve(parts?.cap, 2);
+    return isWhole && !!parts?.cap?.some(({ y }) => y > 0);
 }
 
 /** Returns the species of a JSON text.
@@ -41,10 +47,13 @@ export function readSpecies(text: string): Species {
     stages.forEach((stage, index) => {
         if (!isOutline(stage?.model?.silhouette))
             refuse(
-                `/stages/${index}/model/silhouette has no stem and cap; other forms have no outline.`,
+                `/stages/${index}/model/silhouette has no stem and cap of points in metres; other forms have no outline.`,
             );
         if (!Number.isFinite(stage.age)) refuse(`/stages/${index}/age is no number.`);
     });
+    for (const { model } of stages)
+        // Clubs and puffballs need not state that they have no lower face.
+        if (model.silhouette) model.silhouette = { ...model.silhouette, hymenium: model.silhouette.hymenium ?? [] };
     return { ...(species as Species), id: species?.id ?? "species" };
 }
 
