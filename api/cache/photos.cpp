@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/params/types.h"
+#include "api/http/text.h"
 
 namespace sporeprint::api {
 
@@ -18,11 +18,7 @@ std::string random_name() {
     std::array<std::uint8_t, 16> bits{};
     if (RAND_bytes(bits.data(), static_cast<int>(bits.size())) != 1)
         throw std::runtime_error("the system gives no random numbers");
-    std::string text = base64_text(bits);
-    text.resize(Photos::name_length);
-    std::replace(text.begin(), text.end(), '+', '-');
-    std::replace(text.begin(), text.end(), '/', '_');
-    return text;
+    return base64url_text(bits);
 }
 
 /// Returns the size of a cut: a mask of the large working copy.

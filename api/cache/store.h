@@ -48,9 +48,8 @@ struct Store {
     /// A photograph is decoded by the holder of one: decoders take up to 200 MB each, so two run at once,
     /// whatever the number of threads.
     std::array<std::mutex, 2> decoders;
-    std::atomic<std::uint64_t> photographs{
-        0};                                 ///< their number so far; part of the keys of their jobs
-    std::atomic<std::uint64_t> uploads{0};  ///< their number so far; part of the keys of their jobs
+    /// How many photographs and other uploads there were so far; part of the keys of their jobs.
+    std::atomic<std::uint64_t> photographs{0}, uploads{0};
 };
 
 /// Thrown by the Caches of cached_only() for a correspondence that is not cached.

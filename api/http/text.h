@@ -1,10 +1,14 @@
-// Text functions for HTTP: comparison in any case, trimming, splitting.
+// Text functions for HTTP: comparison in any case, trimming, splitting, base64url.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/params/types.h"
 
 namespace sporeprint::api {
 
@@ -42,6 +46,15 @@ namespace sporeprint::api {
         begin = end + 1;
     }
     return out;
+}
+
+/// Returns bytes as base64url without padding (RFC 4648 section 5).
+[[nodiscard]] inline std::string base64url_text(std::span<const std::uint8_t> bytes) {
+    std::string text = base64_text(bytes);
+    text.erase(text.find_last_not_of('=') + 1);
+    std::replace(text.begin(), text.end(), '+', '-');
+    std::replace(text.begin(), text.end(), '/', '_');
+    return text;
 }
 
 }  // namespace sporeprint::api

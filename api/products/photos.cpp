@@ -14,9 +14,6 @@ namespace sporeprint::api {
 
 namespace {
 
-/// Nobody but the client that uploaded a photograph may store it.
-constexpr const char* private_to_client = "private, no-store";
-
 /// JPEG quality of stored photographs: what is lost is less than the noise of a sensor.
 constexpr int quality = 92;
 
@@ -85,8 +82,7 @@ Plan plan_upload(RouteCall& call) {
 }
 
 Response gone(const RouteCall& call) {
-    return call.context.responses.problem(
-        call.request, 404, "there is no photograph of this name, or no longer; upload it again");
+    return call.context.responses.problem(call.request, 404, photo_is_gone);
 }
 
 Plan plan_download(RouteCall& call) {

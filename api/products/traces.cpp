@@ -10,6 +10,7 @@
 #include "api/http/schemas.h"
 #include "api/products/context.h"
 #include "api/products/mix.h"
+#include "api/products/photos.h"
 #include "api/products/product.h"
 #include "core/grow/species_from_photo.h"
 #include "core/params/reader.h"
@@ -30,8 +31,9 @@ constexpr std::size_t most_line_points = 256;
 
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 
+double hundredths(double value) { return std::round(value * 100.0) / 100.0; }
+
 Value point(const glm::dvec2& pixel) {
-    const auto hundredths = [](double value) { return std::round(value * 100.0) / 100.0; };
     return Value::Array{hundredths(pixel.x), hundredths(pixel.y)};
 }
 
@@ -43,9 +45,7 @@ Value points(std::span<const glm::dvec2> pixels) {
     return list;
 }
 
-Value percent(double share) { return std::round(share * 10'000.0) / 100.0; }
-
-Value angle(double degrees) { return std::round(degrees * 100.0) / 100.0; }
+double percent(double share) { return hundredths(100.0 * share); }
 
 Value named(const std::vector<NearSpecies>& nearest, const Atlas& atlas) {
     Value list = Value::array();
@@ -55,7 +55,7 @@ Value named(const std::vector<NearSpecies>& nearest, const Atlas& atlas) {
         species.set("name", atlas.find(one.id)->species.facts.common_name.view());
         species.set("age", one.age);
         species.set("shape_pct", percent(one.apart.shape));
-        species.set("colour", std::round(one.apart.colour * 100.0) / 100.0);
+        species.set("colour", hundredths(one.apart.colour));
         list.push(std::move(species));
     }
     return list;
@@ -69,7 +69,8 @@ Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
     Value marks = Value::object();
     marks.set("junctions", points(traced.junctions)).set("margins", points(traced.margins));
     Value angles = Value::object();
-    angles.set("lean_deg", angle(traced.lean_deg)).set("bend_deg", angle(traced.bend_deg));
+    angles.set("lean_deg", hundredths(traced.lean_deg))
+        .set("bend_deg", hundredths(traced.bend_deg));
     Value ring;
     if (traced.ring) {
         ring.set("height_m", rounded(traced.ring->height_m, 1e-6));
@@ -98,7 +99,7 @@ Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
 /// Returns a response that only the client with the photograph may store.
 Response private_json(const Value& body) {
     Response response;
-    response.headers = {{"Content-Type", json}, {"Cache-Control", "private, no-store"}};
+    response.headers = {{"Content-Type", json}, {"Cache-Control", private_to_client}};
     response.body = {slice_of(dump(body))};
     return response;
 }
@@ -141,9 +142,7 @@ Plan plan_trace(RouteCall& call) {
     const auto now = std::chrono::steady_clock::now();
     const std::shared_ptr<const StoredPhoto> photo =
         errors.empty() ? context.store.photos.find(side.photo, now) : nullptr;
-    if (errors.empty() && !photo)
-        errors.add(404, "/views/side/photo",
-                   "there is no photograph of this name, or no longer; upload it again");
+    if (errors.empty() && !photo) errors.add(404, "/views/side/photo", photo_is_gone);
     if (errors.empty() && !photo->cut_out && !side.gesture)
         errors.add(422, "/views/side/gesture",
                    "is missing; only a picture that is cut out already needs none");

@@ -75,16 +75,6 @@ trace::Mask cleaned(const trace::Mask& cut_out, const trace::Gesture& gesture,
     return mask;
 }
 
-/// Returns a trace in pixels of another copy.
-trace::Traced scaled(trace::Traced traced, double factor) {
-    const auto scale = [factor](glm::dvec2& point) { point *= factor; };
-    for (std::vector<glm::dvec2>* line : {&traced.left, &traced.right, &traced.axis})
-        std::for_each(line->begin(), line->end(), scale);
-    std::for_each(traced.junctions.begin(), traced.junctions.end(), scale);
-    std::for_each(traced.margins.begin(), traced.margins.end(), scale);
-    return traced;
-}
-
 /// Traces what is on a mask: by the stated form or the one that fits the outline, or if that cannot be grown by the
 /// first that can.
 trace::Traced traced_by_any_form(const trace::Mask& mask, const trace::Gesture& gesture,
@@ -238,7 +228,7 @@ SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mas
         trace::give_colours(found.whole.species, found.whole.stage,
                             trace::part_colours(large, mask, traced));
         found.whole.species.id = spec.id;
-        found.traced = scaled(traced, 1.0 / factor);
+        found.traced = trace::on_copy(traced, 1.0 / factor);
         found.warnings = warnings_of(found);
         if (spec.images)
             give_images(found, trace::photo_images(large, mask, traced, params.height_m));

@@ -30,6 +30,15 @@ constexpr double most_contrast = 2.0;
 /// A hue is quite another one by more steps: a brown cap may have a cream margin.
 constexpr int other_hue = 4;
 
+/// Returns the value at a place between the texels of a grid: `texel` of whole columns and rows.
+template <class Texel>
+glm::dvec3 between_texels(double x, double y, Texel texel) {
+    const auto left = static_cast<std::size_t>(x), top = static_cast<std::size_t>(y);
+    const double right = x - static_cast<double>(left), down = y - static_cast<double>(top);
+    return (1.0 - down) * ((1.0 - right) * texel(left, top) + right * texel(left + 1, top)) +
+           down * ((1.0 - right) * texel(left, top + 1) + right * texel(left + 1, top + 1));
+}
+
 double luminance(const glm::dvec3& light) {
     return 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
 }
@@ -46,31 +55,27 @@ class Light {
 
     /// Returns the pixel that contains a place, which is on the photograph.
     [[nodiscard]] Pixel pixel(const glm::dvec2& place) const {
-        const auto i = first_of(static_cast<int>(place.x), static_cast<int>(place.y));
+        const auto i =
+            first_of(static_cast<std::size_t>(place.x), static_cast<std::size_t>(place.y));
         return {picture_.rgb[i], picture_.rgb[i + 1], picture_.rgb[i + 2]};
     }
 
     [[nodiscard]] glm::dvec3 at(const glm::dvec2& place) const {
         const double x = std::clamp(place.x - 0.5, 0.0, picture_.width - 1.001),
                      y = std::clamp(place.y - 0.5, 0.0, picture_.height - 1.001);
-        const int left = static_cast<int>(x), top = static_cast<int>(y);
-        const double right = x - left, down = y - top;
-        return (1.0 - down) * ((1.0 - right) * texel(left, top) + right * texel(left + 1, top)) +
-               down * ((1.0 - right) * texel(left, top + 1) + right * texel(left + 1, top + 1));
+        return between_texels(x, y, [this](std::size_t column, std::size_t row) {
+            const std::size_t i = first_of(column, row);
+            return glm::dvec3(linear_[picture_.rgb[i]], linear_[picture_.rgb[i + 1]],
+                              linear_[picture_.rgb[i + 2]]);
+        });
     }
 
   private:
     const Picture& picture_;
     std::array<double, 256> linear_{};
 
-    [[nodiscard]] std::size_t first_of(int x, int y) const {
-        return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
-                    static_cast<std::size_t>(x));
-    }
-    [[nodiscard]] glm::dvec3 texel(int x, int y) const {
-        const std::size_t i = first_of(x, y);
-        return {linear_[picture_.rgb[i]], linear_[picture_.rgb[i + 1]],
-                linear_[picture_.rgb[i + 2]]};
+    [[nodiscard]] std::size_t first_of(std::size_t x, std::size_t y) const {
+        return 3 * (y * static_cast<std::size_t>(picture_.width) + x);
     }
 };
 
@@ -267,14 +272,9 @@ class Round {
     [[nodiscard]] glm::dvec3 detail_at(double share, double angle) const {
         const double down = between(share, rows_),
                      across = between(0.5 + 0.5 * angle / reach_, columns_);
-        const auto row = static_cast<std::size_t>(down), column = static_cast<std::size_t>(across);
-        const double lower = down - static_cast<double>(row),
-                     right = across - static_cast<double>(column);
-        const auto texel = [&](std::size_t i, std::size_t j) { return details_[i * columns_ + j]; };
-        return (1.0 - lower) *
-                   ((1.0 - right) * texel(row, column) + right * texel(row, column + 1)) +
-               lower *
-                   ((1.0 - right) * texel(row + 1, column) + right * texel(row + 1, column + 1));
+        return between_texels(across, down, [this](std::size_t column, std::size_t row) {
+            return details_[row * columns_ + column];
+        });
     }
 };
 

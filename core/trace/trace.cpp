@@ -205,6 +205,15 @@ FittedProfile fitted_profile(const Contour& contour, const TracedAxis& axis, con
 
 }  // namespace
 
+Traced on_copy(Traced traced, double factor) {
+    const auto scale = [factor](glm::dvec2& point) { point *= factor; };
+    for (std::vector<glm::dvec2>* line : {&traced.left, &traced.right, &traced.axis})
+        std::for_each(line->begin(), line->end(), scale);
+    std::for_each(traced.junctions.begin(), traced.junctions.end(), scale);
+    std::for_each(traced.margins.begin(), traced.margins.end(), scale);
+    return traced;
+}
+
 Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& params) {
     require_valid(params);
     const Extent extent = extent_of(mask);
@@ -250,13 +259,7 @@ Traced traced(const Picture& photo, const Gesture& gesture, const TraceParams& p
     require_valid(params);
     const Mask mask = cut_out(photo, gesture);
     const double factor = static_cast<double>(mask.width) / photo.width;
-    Traced found = traced(mask, gesture.scaled(factor), params);
-    const auto back = [factor](glm::dvec2& point) { point /= factor; };
-    for (std::vector<glm::dvec2>* line : {&found.left, &found.right, &found.axis})
-        std::for_each(line->begin(), line->end(), back);
-    std::for_each(found.junctions.begin(), found.junctions.end(), back);
-    std::for_each(found.margins.begin(), found.margins.end(), back);
-    return found;
+    return on_copy(traced(mask, gesture.scaled(factor), params), 1.0 / factor);
 }
 
 }  // namespace sporeprint::trace

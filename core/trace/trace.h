@@ -85,6 +85,9 @@ struct Traced {
     std::array<glm::dvec2, 2> junctions{}, margins{};
 };
 
+/// Returns a trace in pixels of another copy of the photograph.
+[[nodiscard]] Traced on_copy(Traced traced, double factor);
+
 /// Traces a mushroom seen from the side.
 ///
 /// throws    InvalidInput (paths "/height_m", "/form", "/hollow", below "/gesture") if a parameter is out

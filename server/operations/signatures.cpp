@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "api/http/query.h"
+#include "api/http/text.h"
 #include "core/params/messages.h"
 #include "core/params/types.h"
 #include "server/operations/text_files.h"
@@ -43,15 +44,6 @@ std::optional<std::string> bytes_of(std::string_view hex) {
     return bytes;
 }
 
-/// Encodes 32 bytes as 43 characters.
-std::string base64url(const Digest& digest) {
-    std::string text = base64_text(digest);
-    text.erase(text.find_last_not_of('=') + 1);
-    std::replace(text.begin(), text.end(), '+', '-');
-    std::replace(text.begin(), text.end(), '/', '_');
-    return text;
-}
-
 std::string signature(const SigningKey& key, std::string_view method, std::string_view target,
                       std::string_view body) {
     std::string text = "v1\n";
@@ -66,7 +58,7 @@ std::string signature(const SigningKey& key, std::string_view method, std::strin
              &length) == nullptr ||
         length != digest.size())
         throw std::runtime_error("HMAC-SHA256 is not to be had");
-    return base64url(digest);
+    return api::base64url_text(digest);
 }
 
 /// Removes the last parameter of a target if it has this name, and returns its value.

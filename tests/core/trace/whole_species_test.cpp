@@ -105,6 +105,23 @@ TEST(WholeSpecies, TakesOverAThickStemLessTheFartherInAge) {
     }
 }
 
+/// Expects that a traced shape becomes a species by a template, and that its mushrooms have no defects.
+void expect_growth(const std::string& traced_of, const std::string& lender, const Swept& shape) {
+    trace::WholeSpecies found = trace::whole_species(species_of(lender), shape, 0.65);
+    found.species.id = Text<48>("traced");
+    EXPECT_EQ(shape_of(found.species.stages[found.stage]).silhouette, shape.silhouette);
+    const Atlas own({.species = {dump(write(found.species))}});
+    for (const double age : {0.0, 0.3, 0.65, 1.0}) {
+        MushroomSpec spec;
+        spec.mix.push_back({"traced"});
+        spec.params.age = age;
+        spec.params.lod = 1;
+        spec.params.textures = Textures::none;
+        const Mesh mesh = mushroom_mesh(spec, resolve(spec, own));
+        EXPECT_TRUE(defects(mesh).empty()) << traced_of << " as " << lender << " at " << age;
+    }
+}
+
 TEST(WholeSpecies, OfATraceGrowsAtAllAges) {
     const std::vector<std::string> ids = {
         "amanita_muscaria",  "boletus_edulis",        "hygrocybe_coccinea", "coprinus_comatus",
@@ -117,22 +134,7 @@ TEST(WholeSpecies, OfATraceGrowsAtAllAges) {
             {id, 0.65, static_cast<std::uint32_t>(i + 21), View::front, 640}, Scenery::plain);
         const trace::Traced traced = trace::traced(photo.truth, photo.gesture, {0.09});
         // The template may be another species than the one on the photograph.
-        for (const std::string& of : {id, other}) {
-            trace::WholeSpecies found = trace::whole_species(species_of(of), traced.shape, 0.65);
-            found.species.id = Text<48>("traced");
-            EXPECT_EQ(shape_of(found.species.stages[found.stage]).silhouette,
-                      traced.shape.silhouette);
-            const Atlas own({.species = {dump(write(found.species))}});
-            for (const double age : {0.0, 0.3, 0.65, 1.0}) {
-                MushroomSpec spec;
-                spec.mix.push_back({"traced"});
-                spec.params.age = age;
-                spec.params.lod = 1;
-                spec.params.textures = Textures::none;
-                const Mesh mesh = mushroom_mesh(spec, resolve(spec, own));
-                EXPECT_TRUE(defects(mesh).empty()) << id << " as " << of << " at " << age;
-            }
-        }
+        for (const std::string& of : {id, other}) expect_growth(id, of, traced.shape);
     }
 }
 
@@ -157,22 +159,8 @@ TEST(WholeSpecies, OfOtherFormsGrowsAtAllAges) {
                        Scenery::plain);
         const trace::Traced traced = trace::traced(photo.truth, photo.gesture,
                                                    {0.09, trace::form_of(own.facts.form).value()});
-        for (const std::string of : {one.species, one.other}) {
-            trace::WholeSpecies found = trace::whole_species(species_of(of), traced.shape, 0.65);
-            found.species.id = Text<48>("traced");
-            EXPECT_EQ(shape_of(found.species.stages[found.stage]).silhouette,
-                      traced.shape.silhouette);
-            const Atlas with_it({.species = {dump(write(found.species))}});
-            for (const double age : {0.0, 0.3, 0.65, 1.0}) {
-                MushroomSpec spec;
-                spec.mix.push_back({"traced"});
-                spec.params.age = age;
-                spec.params.lod = 1;
-                spec.params.textures = Textures::none;
-                const Mesh mesh = mushroom_mesh(spec, resolve(spec, with_it));
-                EXPECT_TRUE(defects(mesh).empty()) << one.species << " as " << of << " at " << age;
-            }
-        }
+        for (const char* of : {one.species, one.other})
+            expect_growth(one.species, of, traced.shape);
     }
 }
 
