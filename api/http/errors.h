@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,13 @@ struct ProblemType {
 
 /// Returns the row of a status; that of 500 if there is none.
 [[nodiscard]] const ProblemType& problem_type(int status);
+
+/// Thrown if something that the service depends on, such as a database, cannot be used at the moment: 503. The text
+/// is for the operator's log; clients do not see it.
+class Unavailable : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
 
 /// The problems found while a request is parsed. Each has a status; the status of the response is
 /// the first of 404, 400, 422, 410 that occurs.

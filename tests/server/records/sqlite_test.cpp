@@ -1,0 +1,90 @@
+#include "server/records/sqlite.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "api/http/errors.h"
+
+namespace sporeprint::server::records_sqlite_test {
+namespace {
+
+using namespace api;
+
+class SqliteFile : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "sqlite-XXXXXX").string();
+        ASSERT_TRUE(mkdtemp(name.data()));
+        folder_ = name;
+        file_ = folder_ / "library.db";
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path folder_, file_;
+};
+
+std::string reason_of(const std::filesystem::path& file) {
+    try {
+        static_cast<void>(open_sqlite_records(file));
+    } catch (const Unavailable& error) {
+        return error.what();
+    }
+    return {};
+}
+
+TEST_F(SqliteFile, ANewerSchemaIsRefusedAndLeftAlone) {
+    open_sqlite_records(file_)->add_owner("kaja", 1);
+    SQLite::Database(file_.string(), SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+    EXPECT_NE(reason_of(file_).find("schema 99; this server knows up to 1"), std::string::npos);
+    SQLite::Database database(file_.string());
+    EXPECT_EQ(database.execAndGet("SELECT count(*) FROM owner").getInt(), 1);
+    EXPECT_EQ(database.execAndGet("PRAGMA user_version").getInt(), 99);
+}
+
+TEST_F(SqliteFile, OtherFilesAreRefused) {
+    std::ofstream(file_)
+        << "This is a text, long enough not to be taken for an empty database file.";
+    EXPECT_NE(reason_of(file_), "");
+    EXPECT_NE(reason_of(folder_ / "none" / "library.db").find("its folder does not exist"),
+              std::string::npos);
+}
+
+TEST_F(SqliteFile, ABackupOfAFileInUseHasWhatWasCommitted) {
+    const std::unique_ptr<Records> records = open_sqlite_records(file_);
+    records->add_owner("kaja", 1);
+    back_up_sqlite_records(file_, folder_ / "copy.db");
+    records->add_owner("sami", 2);
+    EXPECT_EQ(open_sqlite_records(folder_ / "copy.db")->owners().size(), 1U);
+    EXPECT_THROW(back_up_sqlite_records(file_, folder_ / "copy.db"), Unavailable)
+        << "exists already";
+    EXPECT_THROW(back_up_sqlite_records(folder_ / "none.db", folder_ / "other.db"), Unavailable);
+}
+
+TEST_F(SqliteFile, ThePublishedIsProtectedByTheDatabaseItself) {
+    const std::unique_ptr<Records> records = open_sqlite_records(file_);
+    records->add_owner("kaja", 1);
+    records->create("kaja", "bolete", {"text", {}, 1, "", "", {}}, "", "", 1);
+    records->publish("kaja", "bolete", std::nullopt, "", 1);
+    SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
+    EXPECT_EQ(database.exec("UPDATE version SET text = 'other' WHERE number = 0"), 1);
+    EXPECT_THROW(database.exec("UPDATE version SET text = 'other' WHERE number = 1"),
+                 SQLite::Exception);
+    EXPECT_EQ(database.execAndGet("PRAGMA integrity_check").getString(), "ok");
+}
+
+TEST_F(SqliteFile, AFullDiskOrABusyFileIsUnavailable) {
+    const std::unique_ptr<Records> records = open_sqlite_records(file_);
+    records->add_owner("kaja", 1);
+    SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE);
+    other.exec("BEGIN EXCLUSIVE");
+    EXPECT_THROW(records->add_owner("sami", 1), Unavailable);
+    other.exec("ROLLBACK");
+    EXPECT_TRUE(records->add_owner("sami", 1));
+}
+
+}  // namespace
+}  // namespace sporeprint::server::records_sqlite_test
