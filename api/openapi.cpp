@@ -100,6 +100,21 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
     if (has("{photo}"))
         parameters.push(path_parameter("photo", "The secret name of a photograph.", text,
                                        "AAAAAAAAAAAAAAAAAAAAAA"));
+    if (has("{species}"))
+        parameters.push(path_parameter("species",
+                                       "A species of the library: ~owner.name, or ~owner.name@3.",
+                                       text, "~kaja.red_bolete"));
+    if (has("{share}"))
+        parameters.push(path_parameter("share", "The id of a key.", text, "abcdefgh"));
+    if (has("{token}"))
+        parameters.push(path_parameter("token", "The id of a token.", text, "abcdefgh"));
+    if (route.has_condition)
+        parameters.push(
+            object({{"name", "If-Match"},
+                    {"in", "header"},
+                    {"required", true},
+                    {"description", "The entity tag of the draft that was read, or * for any."},
+                    {"schema", text}}));
     if (has("{type}"))
         parameters.push(path_parameter("type", "What follows /problems/ in a problem's `type`.",
                                        text, problem_types().front().slug));
@@ -205,6 +220,15 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
             if (*route.body_type == '\0' || route.request_body) problems.insert(404);
             if (*route.body_type != '\0') problems.insert({411, 413, 415, 422, 504});
             break;
+        case RouteKind::record:
+            problems.insert({404, 504});
+            if (route.access != Access::open) problems.insert({401, 403});
+            if (std::string_view(route.pattern).find("{species}") != std::string_view::npos)
+                problems.insert(410);
+            if (route.has_condition) problems.insert({412, 428});
+            if (is_get(route) && route.has_etag) problems.insert(412);
+            if (*route.body_type != '\0') problems.insert({409, 411, 413, 415, 422, 507});
+            break;
         case RouteKind::product:
         case RouteKind::image:
             problems.insert({404, 410, 412, 422, 504});
@@ -218,7 +242,8 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
 /// Returns true if ranges of the body may be requested: for files that are not compressed on
 /// demand. A range of a response to POST is never sent.
 bool has_ranges(const Route& route) {
-    return is_get(route) && route.kind != RouteKind::upload && !compressible(route.media_type);
+    return is_get(route) && route.kind != RouteKind::upload && route.kind != RouteKind::record &&
+           !compressible(route.media_type);
 }
 
 Value success_headers(const Route& route, bool is_signed) {
@@ -236,6 +261,10 @@ Value success_headers(const Route& route, bool is_signed) {
     if (is_generated(route)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
     if (route.success == 201) add({"Location"});
     if (route.kind == RouteKind::upload) return headers;
+    if (route.kind == RouteKind::record) {
+        if (route.has_etag) add({"ETag"});
+        return headers;
+    }
     add({"ETag"});
     if (has_ranges(route)) add({"Accept-Ranges?"});
     if (!is_cached(route)) return headers;
@@ -309,6 +338,13 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
     if (is_signed && is_generated(route))
         out.set("security", Value(Value::Array{object({{"signature", Value::array()}})}));
 
+    if (route.access != Access::open) {
+        Value security = Value::array();
+        if (route.access == Access::chosen) security.push(Value::object());
+        security.push(object({{"token", Value::array()}}));
+        out.set("security", std::move(security));
+    }
+
     Value responses = Value::object();
     Value success =
         object({{"description", is_head ? "It is there; these are its headers." : route.summary},
@@ -322,17 +358,22 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
     }
     responses.set(std::to_string(route.success), std::move(success));
     std::set<int> problems = problems_of(route, is_signed);
-    if (is_get(route) && route.kind != RouteKind::health && route.kind != RouteKind::upload)
+    if (is_get(route) && route.kind != RouteKind::health && route.kind != RouteKind::upload &&
+        (route.kind != RouteKind::record || route.has_etag))
         responses.set("304", reference("responses/not-modified"));
     if (!is_head && has_ranges(route)) problems.insert(416);
-    for (const int status : problems)
-        responses.set(std::to_string(status),
-                      reference("responses/" + std::string(problem_type(status).slug)));
+    for (const int status : problems) {
+        const bool is_withdrawn = status == 410 && route.kind == RouteKind::record;
+        responses.set(
+            std::to_string(status),
+            reference("responses/" +
+                      std::string(is_withdrawn ? "withdrawn" : problem_type(status).slug)));
+    }
     out.set("responses", std::move(responses));
     return out;
 }
 
-Value component_responses(bool is_signed) {
+Value component_responses() {
     Value responses = object(
         {{"not-modified",
           object({{"description",
@@ -341,7 +382,6 @@ Value component_responses(bool is_signed) {
                                           "Content-Location?", "Vary?"})}})}});
     for (const ProblemType& type : problem_types()) {
         if (type.status == 501) continue;  // for methods without operations
-        if (type.status == 403 && !is_signed) continue;
         Value headers = headers_of({"Cache-Control", "X-Request-Id", "Access-Control-Allow-Origin?",
                                     "X-Content-Type-Options?"});
         const auto add = [&](const char* name, bool is_required) {
@@ -400,6 +440,16 @@ Value signature_scheme() {
                     "this order. Whoever runs the service gives them out."}});
 }
 
+/// Returns the security scheme of tokens.
+Value token_scheme() {
+    return object(
+        {{"type", "http"},
+         {"scheme", "bearer"},
+         {"description",
+          "A token of an owner of species, spk_ and 52 characters. Whoever runs the service "
+          "gives out the first one."}});
+}
+
 }  // namespace
 
 Value openapi(const DocumentInputs& inputs, std::string_view version) {
@@ -432,8 +482,10 @@ Value openapi(const DocumentInputs& inputs, std::string_view version) {
     }
     Value components = object({{"schemas", std::move(schemas)},
                                {"requestBodies", std::move(bodies)},
-                               {"responses", component_responses(is_signed)}});
-    if (is_signed) components.set("securitySchemes", object({{"signature", signature_scheme()}}));
+                               {"responses", component_responses()}});
+    Value schemes = object({{"token", token_scheme()}});
+    if (is_signed) schemes.set("signature", signature_scheme());
+    components.set("securitySchemes", std::move(schemes));
     Value document = object({
         {"openapi", "3.1.0"},
         {"info", object({{"title", "Sporeprint"},

@@ -3,6 +3,7 @@
 #include "api/products/colonies.h"
 #include "api/products/inspection.h"
 #include "api/products/leaves.h"
+#include "api/products/library.h"
 #include "api/products/morphs.h"
 #include "api/products/mushrooms.h"
 #include "api/products/photos.h"
@@ -25,6 +26,8 @@ const RouteTable& route_table() {
         set_routes,
         photo_routes,
         trace_routes,
+        library_routes,
+        token_routes,
         inspection_routes,
         reference_routes,
         health_routes,

@@ -10,6 +10,7 @@
 #include "api/http/stopwatch.h"
 #include "api/http/text.h"
 #include "api/products/context.h"
+#include "api/products/library_access.h"
 #include "api/routes.h"
 #include "api/static_documents.h"
 #include "core/grow/mushroom.h"
@@ -68,7 +69,7 @@ std::optional<Response> route_head(const ResponseBuilder& responses, const Reque
                                      " bytes; at most " + std::to_string(longest_target) +
                                      " are taken");
     if (request.method == "OPTIONS" && request.target == "*")
-        return responses.options(request, "GET, HEAD, POST, DELETE, OPTIONS");
+        return responses.options(request, "GET, HEAD, POST, PUT, DELETE, OPTIONS");
     if (const std::string_view requested = origin_form(request.target);
         !base.empty() && requested.substr(0, requested.find('?')) == base &&
         (request.method == "GET" || request.method == "HEAD"))
@@ -111,6 +112,77 @@ Plan plan_route(Context& context, const Request& request, const RoutedRequest& r
     return route.plan(call);
 }
 
+/// Thrown for species of the library that are not in memory.
+struct ToBeLoaded {
+    std::vector<LibraryName> names;
+};
+
+/// Returns the plan of a request whose atlas has guests. The plan owns its context. Its response is that of this
+/// moment only: the species may be withdrawn, and without the number of a version another one may be published.
+///
+/// is_open  a species was named without the number of its version
+Plan with_guests(const std::shared_ptr<Context>& context, const Request& request,
+                 const RoutedRequest& routed, bool is_open) {
+    Plan plan = plan_route(*context, request, routed);
+    const auto finish = [is_open](Response& response) {
+        response.cacheable = false;
+        if (is_open && response.status < 300) set_header(response, "Cache-Control", "no-cache");
+    };
+    if (Response* const response = std::get_if<Response>(&plan)) {
+        finish(*response);
+        return plan;
+    }
+    Job& job = std::get<Job>(plan);
+    job.run = [context, run = std::move(job.run)](std::stop_token stop, const Observer& observer,
+                                                  const Parallel& parallel) {
+        return run(std::move(stop), observer, parallel);
+    };
+    job.delivery = [context, finish, delivery = std::move(job.delivery)](Response& response) {
+        if (delivery) delivery(response);
+        finish(response);
+    };
+    return plan;
+}
+
+/// Returns the response to a request, or the job that computes it, with the species of the library that it names as
+/// guests of the atlas.
+///
+/// loads   reads species that are not in memory, which blocks; otherwise they are thrown as ToBeLoaded
+/// throws  CacheMiss, ToBeLoaded
+Plan plan_with_library(Context& context, const Request& request, const RoutedRequest& routed,
+                       bool loads) {
+    std::shared_ptr<Context> own;
+    std::vector<AtlasGuest> guests;
+    bool is_open = false;
+    for (;;) {
+        try {
+            return own ? with_guests(own, request, routed, is_open)
+                       : plan_route(context, request, routed);
+        } catch (const SpeciesOfLibrary& wanted) {
+            if (!context.library) return context.responses.problem(request, 404, no_library);
+            ToBeLoaded missing;
+            for (const std::string& id : wanted.ids()) {
+                Library::Found found = context.library->find(id);
+                if (found.status == 410)
+                    return withdrawn(context.responses, request, found.message);
+                if (found.status != 200)
+                    return context.responses.problem(request, found.status, found.message);
+                if (!found.entry && loads) found.entry = context.library->load(found.name);
+                if (!found.entry) {
+                    missing.names.push_back(found.name);
+                    continue;
+                }
+                is_open = is_open || id != text_of(found.name);
+                guests.push_back({id, std::move(found.entry)});
+            }
+            if (!missing.names.empty()) throw ToBeLoaded(std::move(missing));
+            own = std::make_shared<Context>(context);
+            own->atlas = std::make_shared<const Atlas>(context.atlas, guests);
+            own->has_guests = true;
+        }
+    }
+}
+
 }  // namespace
 
 struct Service::Parts {
@@ -120,7 +192,7 @@ struct Service::Parts {
     StaticDocuments documents;
 
     Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
-          std::shared_ptr<Store> the_store)
+          std::shared_ptr<Store> the_store, std::shared_ptr<Library> library)
         : store(std::move(the_store)),
           context{std::move(atlas),
                   options,
@@ -129,19 +201,22 @@ struct Service::Parts {
                   cached_only(*store),
                   route_table(),
                   &documents,
-                  nearest},
-          correspondence_ready{context.atlas,           options,       context.responses, *store,
-                               computed_inline(*store), route_table(), &documents,        nearest},
-          documents(context.atlas, context.responses, options, route_table()) {}
+                  nearest,
+                  std::move(library)},
+          correspondence_ready(context),
+          documents(context.atlas, context.responses, options, route_table()) {
+        correspondence_ready.caches = computed_inline(*store);
+    }
 };
 
-Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
-    : parts_(std::make_unique<Parts>(std::move(atlas), options, std::make_shared<Store>(options))) {
-}
+Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
+                 std::shared_ptr<Library> library)
+    : parts_(std::make_unique<Parts>(std::move(atlas), options, std::make_shared<Store>(options),
+                                     std::move(library))) {}
 
 Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
     : parts_(std::make_unique<Parts>(std::move(atlas), other.parts_->context.options,
-                                     other.parts_->store)) {}
+                                     other.parts_->store, other.parts_->context.library)) {}
 
 Service::~Service() = default;
 
@@ -153,9 +228,19 @@ RoutedRequest Service::route(const Request& request) const {
 }
 
 Plan Service::plan(const Request& request, const RoutedRequest& routed, bool correspondence_ready) {
+    Context& context = correspondence_ready ? parts_->correspondence_ready : parts_->context;
     try {
-        return plan_route(correspondence_ready ? parts_->correspondence_ready : parts_->context,
-                          request, routed);
+        return plan_with_library(context, request, routed, correspondence_ready);
+    } catch (const ToBeLoaded& missing) {
+        auto run = [library = context.library, names = missing.names](
+                       std::stop_token, const Observer& observer, const Parallel&) {
+            observer(Step::resolve);
+            for (const LibraryName& name : names) static_cast<void>(library->load(name));
+            return Response();
+        };
+        std::string key = "library";
+        for (const LibraryName& name : missing.names) (key += '\n') += text_of(name);
+        return Job{std::move(key), Cost{.base = 2000 * missing.names.size()}, std::move(run), true};
     } catch (const CacheMiss& missing) {
         auto run = [this, request, routed](std::stop_token, const Observer& observer,
                                            const Parallel&) {

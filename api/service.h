@@ -11,6 +11,7 @@
 #include "api/http/message.h"
 #include "api/http/routed_request.h"
 #include "api/http/service_options.h"
+#include "api/library/library.h"
 #include "core/atlas/atlas.h"
 
 namespace sporeprint::api {
@@ -20,9 +21,12 @@ class Service {
     /// Creates a service.
     ///
     /// pre  the atlas has a leaf and a tree, as those of built_in_atlas() and atlas_from() have
-    Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options);
+    ///
+    /// library  species of users; nullptr for none
+    Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
+            std::shared_ptr<Library> library = nullptr);
 
-    /// Creates a service with other templates that replaces `other`: both share options, counters
+    /// Creates a service with other templates that replaces `other`: both share options, library, counters
     /// and caches, whose keys contain the hash of the templates. The folder of the page is read
     /// again.
     Service(std::shared_ptr<const Atlas> atlas, const Service& other);
@@ -38,7 +42,8 @@ class Service {
     /// looks into the caches. Returns the response, or the job that computes it. Never blocks, never
     /// throws.
     ///
-    /// A correspondence (MorphSet: the mapping between the outlines of the species of a mix) may be
+    /// A species of the library that is not in memory is loaded by a warm-up job. A correspondence
+    /// (MorphSet: the mapping between the outlines of the species of a mix) may be
     /// needed to check a request. If it is not cached, the result depends on correspondence_ready:
     ///
     /// routed                route() of the request

@@ -26,6 +26,9 @@
 #include "server/operations/options.h"
 #include "server/operations/signatures.h"
 #include "server/operations/text_files.h"
+#include "server/records/administration.h"
+#include "server/records/open.h"
+#include "server/records/watch.h"
 #include "server/reload.h"
 #include "server/request_handler.h"
 #include "server/warm.h"
@@ -115,6 +118,25 @@ void announce(const Options& options, bool has_page, int port) {
         std::fprintf(stderr, "sporeprint: the page is not built; the API is served without it\n");
     std::printf("Sporeprint is ready at %s\n", url_of(options.host, port).c_str());
     std::fflush(stdout);
+}
+
+/// Returns the library that the options name; nullptr for none.
+///
+/// throws  api::Unavailable, InvalidInput
+std::shared_ptr<api::Library> library_of(const Options& options) {
+    if (options.library.empty()) return nullptr;
+    return std::make_shared<api::Library>(open_records(options.library.view()));
+}
+
+/// Gives the operator of a service with an empty library the means to write to it. The token is in a fragment,
+/// which browsers send to nobody.
+void announce_first_token(api::Library& library, const Options& options, int port) {
+    if (const std::optional<std::string> token = first_token(library.records(), library.now())) {
+        std::printf(
+            "The library is empty; its first owner is %s. Open this once:\n%seditor#token=%s\n",
+            first_owner, url_of(options.host, port).c_str(), token->c_str());
+        std::fflush(stdout);
+    }
 }
 
 /// Returns the environment variables of this process.
@@ -259,8 +281,11 @@ int serve(const Options& options, const Environment& environment) {
                               "made anew after a restart",
                               std::chrono::minutes(1));
     const api::ServiceOptions service_options = service_options_of(options, unwritten, log);
+    const std::shared_ptr<api::Library> library = library_of(options);
+    std::optional<LibraryWatch> watch;
+    if (library) watch.emplace(library, log, std::chrono::seconds(2));
     AppState state;
-    state.service = std::make_shared<api::Service>(atlas, service_options);
+    state.service = std::make_shared<api::Service>(atlas, service_options, library);
     const RequestHandlerOptions request_handler_options = request_handler_options_of(options);
     const Sources sources{options.atlas.string(), options.sign_keys.string()};
     if (!sources.keys.empty())
@@ -282,6 +307,7 @@ int serve(const Options& options, const Environment& environment) {
     if (!is_stop_requested()) {
         request_handler.open();
         announce(options, !service_options.assets.empty(), transport.port());
+        if (library) announce_first_token(*library, options, transport.port());
         log.event(LogLevel::info, "ready",
                   {{"version", Value(SPOREPRINT_VERSION)},
                    {"port", Value(transport.port())},
@@ -356,13 +382,49 @@ struct CommandLine {
     std::string config, health;
     bool print_config = false;
     SigningRequest to_sign;
+    LibraryCommand library;
 };
+
+/// Adds `library owner add NAME` and related commands. They end the program.
+void add_library_commands(CLI::App& app, LibraryCommand& command) {
+    CLI::App* const library =
+        app.add_subcommand("library", "Owners, tokens and backup of --library, and end");
+    library->require_subcommand(1);
+    // Options of the program, such as --library itself, may follow.
+    library->fallthrough();
+    CLI::App* const owner = library->add_subcommand("owner", "Owners and their limits");
+    owner->require_subcommand(1);
+    owner->fallthrough();
+    const auto verb = [&command](CLI::App* parent, const char* name, const char* help,
+                                 std::string text, bool has_owner) {
+        CLI::App* const added = parent->add_subcommand(name, help);
+        added->fallthrough();
+        added->callback([&command, text = std::move(text)] { command.verb = text; });
+        if (has_owner) added->add_option("NAME", command.owner, "The owner")->required();
+        return added;
+    };
+    verb(owner, "add", "Add an owner and print a token", "owner-add", true);
+    verb(owner, "list", "Print all owners, and what they have", "owner-list", false);
+    verb(owner, "disable", "Make all tokens of an owner useless", "owner-disable", true);
+    verb(owner, "enable", "Make them useful again", "owner-enable", true);
+    CLI::App* const limit = verb(owner, "limit", "Set what an owner may have", "owner-limit", true);
+    limit->add_option("--documents", command.max_documents, "Greatest number of documents")
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000}));
+    limit->add_option("--bytes", command.max_bytes, "Greatest number of bytes")
+        ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 50));
+    verb(library, "token", "Make another token of an owner and print it", "token", true);
+    verb(library, "backup", "Copy the database, which may be in use, into a new file", "backup",
+         false)
+        ->add_option("FILE", command.file, "The new file")
+        ->required();
+}
 
 void add_flags(CLI::App& app, CommandLine& line) {
     app.add_option(
            "--config", line.config,
            "JSON file with any of these options, named like cache_mb (or SPOREPRINT_CONFIG)")
         ->type_name("FILE");
+    add_library_commands(app, line.library);
     app.add_flag("--print-config", line.print_config,
                  "Print all options as such a file, where they come to, and end");
     app.add_option("--health", line.health,
@@ -388,6 +450,14 @@ void add_flags(CLI::App& app, CommandLine& line) {
         "variable,\na variable over the file.");
 }
 
+/// Does what `sporeprint library ...` says.
+int administer_library(const LibraryCommand& command, const Options& options) {
+    if (options.library.empty())
+        return complain("library needs --library, the database", wrong_usage);
+    std::printf("%s", administer(command, options.library.string(), seconds_since_1970()).c_str());
+    return fine;
+}
+
 /// Does what the command line requests, with the resulting options; returns the exit code.
 int perform(const CLI::App& app, const CommandLine& line, const Options& options,
             const Environment& environment) {
@@ -400,6 +470,7 @@ int perform(const CLI::App& app, const CommandLine& line, const Options& options
         return fine;
     }
     try {
+        if (!line.library.verb.empty()) return administer_library(line.library, options);
         if (to_sign.target.empty() && (app.count("--sign-method") > 0 || !to_sign.body.empty()))
             return complain("--sign-method and --sign-body need --sign, the URL to sign",
                             wrong_usage);

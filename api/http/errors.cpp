@@ -14,12 +14,18 @@ namespace sporeprint::api {
 
 namespace {
 
-constexpr std::array<ProblemType, 19> types = {{
+constexpr std::array<ProblemType, 24> types = {{
     {400, "invalid-parameters", "Invalid parameters",
      "Something is malformed, unknown, repeated or out of range; every culprit is named.",
      "Correct the parameters that `errors` names; each says what is allowed."},
-    {403, "forbidden", "Forbidden", "The signature of the address is missing, wrong or expired.",
-     "Ask whoever gave you the address for a new one; a signature covers every character of it."},
+    {401, "unauthorized", "Unauthorized",
+     "The token is missing, unknown, expired or revoked, or its owner is disabled.",
+     "Send 'Authorization: Bearer spk_...' with a token of the owner."},
+    {403, "forbidden", "Forbidden",
+     "The signature of the address is missing, wrong or expired, or the token does not allow this.",
+     "Ask whoever gave you the address or the token for a new one; a signature covers every "
+     "character "
+     "of an address."},
     {404, "not-found", "Not found", "There is no such route, species or preset.",
      "Take an address from the lists that /v1 links to; `detail` names the closest one."},
     {405, "method-not-allowed", "Method not allowed",
@@ -27,14 +33,20 @@ constexpr std::array<ProblemType, 19> types = {{
      "Use one of the methods in the Allow header."},
     {408, "request-timeout", "Request timeout", "The request did not arrive in time.",
      "Send the request again, head and body without long pauses."},
+    {409, "name-taken", "Name taken", "The name is in use, or was that of what was withdrawn.",
+     "Choose another name; names are never given again."},
     {410, "superseded", "Superseded",
      "The version asked for is no longer made; `canonical` is the address of today's.",
      "Go to the address in `canonical`, or leave out `v` for whatever is made today."},
+    {410, "withdrawn", "Withdrawn", "The owner has withdrawn it, and its bytes are gone.",
+     "Ask the owner; nothing else is at this address."},
     {411, "length-required", "Length required", "Send Content-Length instead of Transfer-Encoding.",
      "Send the body with Content-Length, not in chunks."},
     {412, "precondition-failed", "Precondition failed",
      "If-Match names none of the resource's entity tags, or If-None-Match of a POST names one.",
-     "Send the request without the condition, or with today's ETag."},
+     "Send the request without the condition, or with today's ETag. Of a draft, `current` is that "
+     "ETag "
+     "and `changed` names what differs from what you sent."},
     {413, "body-too-large", "Body too large", "The body is longer than this route takes.",
      "Send a smaller body; `detail` says how many bytes are taken."},
     {414, "uri-too-long", "URI too long", "The address is longer than 4096 bytes.",
@@ -48,6 +60,9 @@ constexpr std::array<ProblemType, 19> types = {{
     {422, "impossible", "Impossible", "The request is well-formed, but no such thing can be made.",
      "Change the parameters that `errors` names: each value is allowed, but not all of them at "
      "once."},
+    {428, "precondition-required", "Precondition required",
+     "A draft is changed only by whoever has seen it: If-Match is missing.",
+     "Send If-Match with the ETag of the draft that you have read, or '*' for any."},
     {429, "too-many-requests", "Too many requests",
      "This client asks for too much; Retry-After says when to come back.",
      "Wait as many seconds as Retry-After says."},
@@ -57,12 +72,15 @@ constexpr std::array<ProblemType, 19> types = {{
      "The fault is ours; the log holds the details under the request id.",
      "Tell the operator the `instance` of the answer: it is the request id."},
     {501, "not-implemented", "Not implemented", "The method is not known.",
-     "Use GET, HEAD, POST, DELETE or OPTIONS."},
+     "Use GET, HEAD, POST, PUT, DELETE or OPTIONS."},
     {503, "unavailable", "Unavailable",
      "The service is saturated or shutting down; Retry-After says when to come back.",
      "Wait as many seconds as Retry-After says, then try again."},
     {504, "timeout", "Timeout", "The work took longer than a request may.",
      "Ask for less: a higher lod, a smaller texture_size or fewer individuals."},
+    {507, "quota-exceeded", "Quota exceeded", "The owner has as much as is allowed.",
+     "Purge what is no longer needed, or ask the operator for more; `detail` says how much there "
+     "is."},
 }};
 
 /// If several statuses apply, the first of these is the status of the response.
@@ -156,11 +174,19 @@ std::string parameter_name(std::string_view pointer, bool posted) {
     return of_params ? query_name(pointer) : "mix";
 }
 
+namespace {
+
+bool has_body(const Request& request) {
+    return request.method == "POST" || request.method == "PUT";
+}
+
+}  // namespace
+
 Response problem_response(const Request& request, std::exception_ptr error, std::string_view base) {
     const auto named = [&](const InvalidInput& input, int status) {
         std::vector<Problem> problems = input.problems();
         for (Problem& problem : problems)
-            problem.path = parameter_name(problem.path, request.method == "POST");
+            problem.path = parameter_name(problem.path, has_body(request));
         return problem_response(request, status, {}, problems, {}, base);
     };
     try {
@@ -169,6 +195,11 @@ Response problem_response(const Request& request, std::exception_ptr error, std:
         return named(impossible, 422);
     } catch (const InvalidInput& invalid) {
         return named(invalid, 400);
+    } catch (const Unavailable&) {
+        Response response = problem_response(
+            request, 503, "the database of the library cannot be used at the moment", {}, {}, base);
+        response.headers.emplace_back("Retry-After", "5");
+        return response;
     } catch (const Cancelled&) {
         Response response =
             problem_response(request, 503, "the work was stopped before it was done", {}, {}, base);

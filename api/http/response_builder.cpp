@@ -223,9 +223,10 @@ Response ResponseBuilder::options(const Request& request, const std::string& all
     response.headers = {{"Allow", allow}, {"Cache-Control", "no-store"}};
     if (!allow_origin_.empty()) {
         set_header(response, "Access-Control-Allow-Methods", allow);
-        set_header(response, "Access-Control-Allow-Headers",
-                   "Cache-Control, Content-Type, If-Match, If-None-Match, If-Range, Range, "
-                   "X-Request-Id");
+        set_header(
+            response, "Access-Control-Allow-Headers",
+            "Authorization, Cache-Control, Content-Type, If-Match, If-None-Match, If-Range, Range, "
+            "X-Request-Id");
         set_header(response, "Access-Control-Max-Age", "86400");
     }
     add_common_headers(request, response);

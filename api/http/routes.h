@@ -26,6 +26,7 @@ enum class RouteKind {
     product,   ///< a generated file or its description; cached
     image,     ///< an image of a product; cached
     upload,    ///< a client's file, or a report about one; never cached
+    record,    ///< of the library: read from or written to a database, for its owner; never cached
     health     ///< the process itself; served by `server`
 };
 
@@ -37,9 +38,16 @@ struct DocumentInputs {
     std::string_view base_path;
 };
 
+/// Whether a route needs a token (`Authorization: Bearer`).
+enum class Access {
+    open,    ///< tokens have no meaning here
+    chosen,  ///< with a token there is more to see
+    required
+};
+
 struct Route {
     RouteKind kind;
-    const char* method;   ///< "GET" (HEAD is served too), "POST" or "DELETE"
+    const char* method;   ///< "GET" (HEAD is served too), "POST", "PUT" or "DELETE"
     const char* pattern;  ///< "/a/{name}.glb": {name} stands before a literal ending
     const char* id;       ///< operationId
     const char* summary;
@@ -54,6 +62,9 @@ struct Route {
     Value (*document)(const DocumentInputs&) = nullptr;  ///< a document without query parameters
     Plan (*plan)(RouteCall&) = nullptr;                  ///< the handler of all other routes
     bool may_be_elsewhere = false;                       ///< 404 here if it has a separate port
+    Access access = Access::open;
+    bool has_condition = false;  ///< If-Match is required
+    bool has_etag = false;       ///< of records: responses have an entity tag
 };
 
 /// Returns true for products, images and uploads: their responses are generated on demand at a

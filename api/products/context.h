@@ -10,6 +10,7 @@
 #include "api/http/response_builder.h"
 #include "api/http/routes.h"
 #include "api/http/service_options.h"
+#include "api/library/library.h"
 #include "core/atlas/atlas.h"
 #include "core/grow/nearest_species.h"
 
@@ -26,7 +27,10 @@ struct Context {
     Caches caches;  ///< `cached_only`, or `computed_inline` when the correspondence may be computed
     const RouteTable& routes;
     const StaticDocuments* documents = nullptr;
-    LazyNearestSpecies& nearest;  ///< of this atlas, for traces
+    LazyNearestSpecies& nearest;       ///< of this atlas, for traces
+    std::shared_ptr<Library> library;  ///< nullptr if the service has none
+    bool has_guests =
+        false;  ///< `atlas` has species of the library, which their owners may withdraw
 };
 
 /// A request with its route.

@@ -6,6 +6,7 @@
 
 #include "api/http/schemas.h"
 #include "api/http/text.h"
+#include "api/library/names.h"
 #include "core/params/messages.h"
 
 namespace sporeprint::api {
@@ -23,6 +24,19 @@ bool number_of(std::string_view text, double& number) {
     return true;
 }
 
+/// Replaces names of species by their ids.
+///
+/// throws  SpeciesOfLibrary
+void find_species(Weights& weights, const Atlas& atlas) {
+    std::vector<std::string> to_load;
+    for (auto& [id, weight] : weights)
+        if (const AtlasEntry* const entry = atlas.find(id))
+            id = entry->species.id.string();
+        else if (is_of_library(id))
+            to_load.push_back(id);
+    if (!to_load.empty()) throw SpeciesOfLibrary(std::move(to_load));
+}
+
 /// Checks ids and weights, which is common to both notations, and returns the canonical form.
 Mix checked(Weights weights, const Atlas& atlas, ValidationErrors& errors, bool clean) {
     if (weights.size() > most_species) {
@@ -31,6 +45,7 @@ Mix checked(Weights weights, const Atlas& atlas, ValidationErrors& errors, bool 
                        std::to_string(most_species) + " can be mixed");
         return {};
     }
+    find_species(weights, atlas);
     for (std::size_t i = 0; i < weights.size(); ++i) {
         const std::string& id = weights[i].first;
         const double weight = weights[i].second;
@@ -89,6 +104,12 @@ Mix canonical_mix(Weights weights) {
         if (share.whole > 0)
             mix.push_back({weights[share.index].first, static_cast<int>(share.whole)});
     return mix;
+}
+
+const AtlasEntry* find_species(std::string_view id, const Atlas& atlas) {
+    const AtlasEntry* const entry = atlas.find(id);
+    if (!entry && is_of_library(id)) throw SpeciesOfLibrary({std::string(id)});
+    return entry;
 }
 
 std::string unknown_species(std::string_view id, const Atlas& atlas) {

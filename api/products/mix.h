@@ -25,10 +25,16 @@ using Weights = std::vector<std::pair<std::string, double>>;
 /// weights  positive and finite, ids distinct, not empty
 [[nodiscard]] Mix canonical_mix(Weights weights);
 
+/// Finds a species by its id, or nullptr if the atlas has none.
+///
+/// throws  SpeciesOfLibrary if it is one of the library that the atlas does not have as a guest
+[[nodiscard]] const AtlasEntry* find_species(std::string_view id, const Atlas& atlas);
+
 /// Reads the {mix} of a URL. Errors name the parameter "mix": 400 for syntax and weights, 404 for
 /// species that are not in the atlas (with a suggestion).
 ///
 /// returns  the canonical mix; empty if there are errors
+/// throws   SpeciesOfLibrary
 [[nodiscard]] Mix read_mix(std::string_view text, const Atlas& atlas, ValidationErrors& errors);
 
 /// Reads {"mix":{id:weight}} of a body by the same rules.

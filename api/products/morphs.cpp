@@ -63,11 +63,12 @@ void refuse_crossings(const std::vector<Arc>& arcs, ValidationErrors& errors) {
 SpeciesPair read_pair(std::string_view a, std::string_view b, const Atlas& atlas,
                       ValidationErrors& errors) {
     SpeciesPair species = {std::string(a), std::string(b)};
-    const AtlasEntry* first = atlas.find(species[0]);
-    const AtlasEntry* second = atlas.find(species[1]);
+    const AtlasEntry* first = find_species(species[0], atlas);
+    const AtlasEntry* second = find_species(species[1], atlas);
     if (!first) errors.add(404, "a", unknown_species(a, atlas));
     if (!second) errors.add(404, "b", unknown_species(b, atlas));
     if (!first || !second) return species;
+    species = {first->species.id.string(), second->species.id.string()};
     if (first == second)
         errors.add(
             422, "b",

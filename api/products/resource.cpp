@@ -122,11 +122,15 @@ Job gzip_job(Store& store, CachedResponse cached, const Key& key, bool versioned
 ///
 /// head  its headers, without Cache-Control
 /// cost  of generating it; nothing if that is unknown until its correspondence is computed
-Job generation_job(Store& store, Resource resource, Response head, const std::optional<Cost>& cost,
-                   bool takes_gzip, bool versioned) {
+Job generation_job(const Context& context, Resource resource, Response head,
+                   const std::optional<Cost>& cost, bool takes_gzip, bool versioned) {
+    Store& store = context.store;
+    // What its owner may withdraw is not left in a folder.
+    DirectoryStore* const directory =
+        store.directory && !context.has_guests ? &*store.directory : nullptr;
     const Cost estimate = cost ? *cost : *resource.guess + resource.search;
     const Cost compressing = takes_gzip ? gzip_cost_of_glb(estimate) : Cost{};
-    auto run = [&store, takes_gzip,
+    auto run = [&store, directory, takes_gzip,
                 estimate_cost = cost ? nullptr : std::move(resource.estimate_cost),
                 make = std::move(resource.make), head = std::move(head), key = resource.key](
                    std::stop_token stop, const Observer& observer, const Parallel& parallel) {
@@ -145,8 +149,8 @@ Job generation_job(Store& store, Resource resource, Response head, const std::op
             return std::move(response);
         };
         // A stored file is possible and within its budget.
-        if (store.directory)
-            if (std::optional<Slice> written = store.directory->find(key)) {
+        if (directory)
+            if (std::optional<Slice> written = directory->find(key)) {
                 response.body = {*std::move(written)};
                 return finished(cache_member("sporeprint-store", true, false));
             }
@@ -157,7 +161,7 @@ Job generation_job(Store& store, Resource resource, Response head, const std::op
         }
         response.body = make(job_context);
         ++store.counters.generated;
-        if (store.directory) store.directory->insert(key, response.body);
+        if (directory) directory->insert(key, response.body);
         return finished(job_context.cache_status());
     };
     return Job{.key = std::move(resource.key),
@@ -313,7 +317,8 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
 
     ++store.counters.glb_misses;
     take_header(head, "Cache-Control");
-    return generation_job(store, std::move(resource), std::move(head), cost, takes_gzip, versioned);
+    return generation_job(context, std::move(resource), std::move(head), cost, takes_gzip,
+                          versioned);
 }
 
 }  // namespace sporeprint::api

@@ -136,7 +136,7 @@ Plan plan_trace(RouteCall& call) {
     errors.add(400, read.second);
     const auto spec = std::make_shared<const trace::TraceSpec>(std::move(read.first));
     if (errors.empty() && spec->template_id.view() != "auto" &&
-        !context.atlas->find(spec->template_id.view()))
+        !find_species(spec->template_id.view(), *context.atlas))
         errors.add(404, "/template", unknown_species(spec->template_id.view(), *context.atlas));
     const trace::ViewSpec& side = spec->views.side;
     const auto now = std::chrono::steady_clock::now();

@@ -115,19 +115,26 @@ std::vector<std::string> texts_in_subfolder(const std::filesystem::path& folder)
 
 }  // namespace
 
+AtlasEntry atlas_entry(Species species) {
+    std::string json = dump(write(species));
+    const std::uint64_t hash = XXH3_64bits(json.data(), json.size());
+    return {std::move(species), std::move(json), hash};
+}
+
+Atlas::Atlas(std::shared_ptr<const Atlas> host, std::vector<AtlasGuest> guests)
+    : host_(std::move(host)), guests_(std::move(guests)) {}
+
 Atlas::Atlas(const AtlasTexts& texts) {
     std::vector<Problem> problems;
     for (const std::string& text : texts.species) {
         Species species;
         if (!read_template(text, species, problems)) continue;
         if (find(species.id.view())) report_repeated(species.id.string(), problems);
-        std::string json = dump(write(species));
-        const std::uint64_t hash = XXH3_64bits(json.data(), json.size());
         const auto place = std::lower_bound(entries_.begin(), entries_.end(), species.id.view(),
                                             [](const AtlasEntry& entry, std::string_view wanted) {
                                                 return entry.species.id.view() < wanted;
                                             });
-        entries_.insert(place, {std::move(species), std::move(json), hash});
+        entries_.insert(place, atlas_entry(std::move(species)));
     }
     leaves_ = presets_of<LeafPreset>(texts.leaves, problems);
     for (const LeafPreset& leaf : leaves_) {
@@ -143,6 +150,9 @@ Atlas::Atlas(const AtlasTexts& texts) {
 }
 
 const AtlasEntry* Atlas::find(std::string_view id) const {
+    for (const AtlasGuest& guest : guests_)
+        if (guest.name == id || guest.entry->species.id.view() == id) return guest.entry.get();
+    if (host_) return host_->find(id);
     const auto place = std::lower_bound(entries_.begin(), entries_.end(), id,
                                         [](const AtlasEntry& entry, std::string_view wanted) {
                                             return entry.species.id.view() < wanted;
@@ -150,9 +160,13 @@ const AtlasEntry* Atlas::find(std::string_view id) const {
     return place != entries_.end() && place->species.id.view() == id ? &*place : nullptr;
 }
 
-const LeafPreset* Atlas::find_leaf(std::string_view id) const { return preset_in(leaves_, id); }
+const LeafPreset* Atlas::find_leaf(std::string_view id) const {
+    return host_ ? host_->find_leaf(id) : preset_in(leaves_, id);
+}
 
-const TreePreset* Atlas::find_tree(std::string_view id) const { return preset_in(trees_, id); }
+const TreePreset* Atlas::find_tree(std::string_view id) const {
+    return host_ ? host_->find_tree(id) : preset_in(trees_, id);
+}
 
 std::shared_ptr<const Atlas> built_in_atlas() {
     return std::make_shared<const Atlas>(built_in_texts());

@@ -23,6 +23,15 @@ struct AtlasEntry {
     std::uint64_t hash = 0;  ///< XXH3 of `json`, 64 bits
 };
 
+/// Returns the entry of a species.
+[[nodiscard]] AtlasEntry atlas_entry(Species species);
+
+/// A species that is not of the atlas itself, and the name by which it is found.
+struct AtlasGuest {
+    std::string name;
+    std::shared_ptr<const AtlasEntry> entry;
+};
+
 /// The JSON texts of an atlas, one per species, leaf or tree, in any order.
 struct AtlasTexts {
     std::vector<std::string> species{}, leaves{}, trees{};
@@ -37,6 +46,11 @@ class Atlas {
     ///         leaves included; paths are prefixed by the id of the species, leaf or tree
     explicit Atlas(const AtlasTexts& texts);
 
+    /// Makes an atlas that has what another one has, and finds guests as well; they are in none of its lists.
+    ///
+    /// guests  found by their names and by the ids of their species
+    Atlas(std::shared_ptr<const Atlas> host, std::vector<AtlasGuest> guests);
+
     // Trees refer to the ids of the leaves, which a copy would leave behind.
     Atlas(const Atlas&) = delete;
     Atlas& operator=(const Atlas&) = delete;
@@ -48,7 +62,9 @@ class Atlas {
     [[nodiscard]] const AtlasEntry* find(std::string_view id) const;
 
     /// Returns all entries of species, sorted by id.
-    [[nodiscard]] const std::vector<AtlasEntry>& entries() const { return entries_; }
+    [[nodiscard]] const std::vector<AtlasEntry>& entries() const {
+        return host_ ? host_->entries() : entries_;
+    }
 
     /// Returns a leaf, or nullptr if the atlas has no leaf with this id.
     [[nodiscard]] const LeafPreset* find_leaf(std::string_view id) const;
@@ -57,20 +73,30 @@ class Atlas {
     [[nodiscard]] const TreePreset* find_tree(std::string_view id) const;
 
     /// Returns all leaves, sorted by rank and id.
-    [[nodiscard]] std::span<const LeafPreset> leaves() const { return leaves_; }
+    [[nodiscard]] std::span<const LeafPreset> leaves() const {
+        return host_ ? host_->leaves() : leaves_;
+    }
 
     /// Returns all trees, sorted by rank and id. Each allows the leaves of the atlas.
-    [[nodiscard]] std::span<const TreePreset> trees() const { return trees_; }
+    [[nodiscard]] std::span<const TreePreset> trees() const {
+        return host_ ? host_->trees() : trees_;
+    }
 
     /// Returns the ids of leaves(), in their order. They live as long as the atlas, even if it is
     /// moved.
-    [[nodiscard]] std::span<const std::string> leaf_ids() const { return leaf_ids_; }
+    [[nodiscard]] std::span<const std::string> leaf_ids() const {
+        return host_ ? host_->leaf_ids() : leaf_ids_;
+    }
 
     /// Returns the ids and canonical texts of the parameters of all leaves, in their order. A tree
     /// may bear any of them, so its version depends on this text.
-    [[nodiscard]] const std::string& leaf_text() const { return leaf_text_; }
+    [[nodiscard]] const std::string& leaf_text() const {
+        return host_ ? host_->leaf_text() : leaf_text_;
+    }
 
   private:
+    std::shared_ptr<const Atlas> host_;
+    std::vector<AtlasGuest> guests_;
     std::vector<AtlasEntry> entries_;
     std::vector<LeafPreset> leaves_;
     std::vector<TreePreset> trees_;

@@ -171,9 +171,11 @@ void Log::request(const Served& served) {
         text(",\"parent_id\":", served.parent_id);
     }
     text(",\"method\":", served.method);
-    // The address of a photograph is a secret.
-    const std::string_view target =
+    // The address of a photograph is a secret, and that of a draft may have the key of a share.
+    std::string_view target =
         served.label == api::photo_pattern ? std::string_view(served.label) : served.target;
+    if (std::string_view(served.label).starts_with("/v1/library/"))
+        target = target.substr(0, target.find('?'));
     if (target.find('?') == target.npos)
         text(",\"target\":", target);
     else

@@ -24,7 +24,7 @@ const prometheus::Histogram::BucketBoundaries request_seconds = {
     0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10};
 
 const char* method_label(std::string_view method) {
-    for (const char* one : {"GET", "HEAD", "POST", "DELETE", "OPTIONS"})
+    for (const char* one : {"GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS"})
         if (method == one) return one;
     return "other";
 }

@@ -43,6 +43,7 @@ struct Options {
     Text<1023> assets;
     Text<1023> store;
     int store_mb = 1024;
+    Text<1023> library;
     Text<1023> sign_keys;
     Text<1023> warm;
     int client_connections = 0;
@@ -106,6 +107,13 @@ struct Options {
                                  .min = 1,
                                  .max = 1048576,
                                  .doc = "Room for the files of that folder."});
+        visit(
+            &O::library,
+            Info{
+                .name = "library",
+                .doc =
+                    "Database of what users store, a file of SQLite; none by itself. Made if it is "
+                    "missing."});
         visit(&O::sign_keys,
               Info{.name = "sign_keys",
                    .doc = "File of keys, \"ID HEX\" a line, of which addresses of what is made "

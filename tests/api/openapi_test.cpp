@@ -231,6 +231,15 @@ TEST(OpenApi, DescribesConditionsAndRangesWhereTheyAreSupported) {
     for (const Route* const each : route_table().routes()) {
         const Route& route = *each;
         const bool is_upload = route.kind == RouteKind::upload;
+        if (route.kind == RouteKind::record) {
+            const Value& own = responses(api, route.pattern, lower(route.method).c_str());
+            const bool is_get = std::string_view(route.method) == "GET";
+            EXPECT_EQ(own.find("304") != nullptr, is_get && route.has_etag) << route.id;
+            EXPECT_EQ(own.find("412") != nullptr,
+                      route.has_condition || (is_get && route.has_etag));
+            EXPECT_EQ(own.find("206"), nullptr) << route.id;
+            continue;
+        }
         const bool is_get = std::string_view(route.method) == "GET";
         const Value& all = responses(api, route.pattern, lower(route.method).c_str());
         if (!is_get || is_upload) {
@@ -253,14 +262,14 @@ TEST(OpenApi, DescribesConditionsAndRangesWhereTheyAreSupported) {
 TEST(OpenApi, RequiresSignaturesOnlyWhereTheServerDoes) {
     const Value plain = document();
     const Value protected_api = document(true);
-    EXPECT_EQ(plain.at_pointer("/components/securitySchemes"), nullptr);
-    EXPECT_EQ(plain.at_pointer("/components/responses/forbidden"), nullptr);
+    EXPECT_EQ(plain.at_pointer("/components/securitySchemes/signature"), nullptr);
     EXPECT_EQ(protected_api.at_pointer("/components/securitySchemes/signature/in")->as_string(),
               "query");
     for (const Route* const each : route_table().routes()) {
         const Route& route = *each;
         const std::string method = lower(route.method);
         const Value& operation = *protected_api.find("paths")->find(route.pattern)->find(method);
+        if (route.access != Access::open) continue;  // these routes need a token
         EXPECT_EQ(operation.find("security") != nullptr, is_generated(route)) << route.pattern;
         EXPECT_EQ(operation.at_pointer("/responses/403") != nullptr, is_generated(route));
         std::set<std::string> names;
@@ -268,6 +277,27 @@ TEST(OpenApi, RequiresSignaturesOnlyWhereTheServerDoes) {
         for (const char* name : {"key", "expires", "sig"})
             EXPECT_EQ(names.contains(name), is_generated(route)) << route.pattern << name;
         EXPECT_EQ(responses(plain, route.pattern, method.c_str()).find("403"), nullptr);
+    }
+}
+
+TEST(OpenApi, RequiresTokensWhereTheServerDoes) {
+    const Value api = document();
+    EXPECT_EQ(api.at_pointer("/components/securitySchemes/token/scheme")->as_string(), "bearer");
+    for (const Route* const route : route_table().routes()) {
+        if (route->access == Access::open) continue;
+        const std::string method = lower(route->method);
+        const Value& operation = *api.find("paths")->find(route->pattern)->find(method);
+        const Value& security = *operation.find("security");
+        EXPECT_NE(security.items().back().find("token"), nullptr) << route->id;
+        EXPECT_EQ(security.items().size(), route->access == Access::required ? 1U : 2U)
+            << route->id;
+        for (const char* const status : {"401", "403"})
+            EXPECT_NE(operation.find("responses")->find(status), nullptr) << route->id;
+        const Value* const parameters = operation.find("parameters");
+        const bool has_condition =
+            parameters && dump(*parameters).find("\"If-Match\"") != std::string::npos;
+        EXPECT_EQ(has_condition, route->has_condition) << route->id;
+        EXPECT_EQ(operation.find("responses")->find("428") != nullptr, route->has_condition);
     }
 }
 

@@ -12,13 +12,63 @@ const leaf: Body<"leaf_order"> = { preset: "maple" };
 const tree: Body<"tree_order"> = { preset: "herb" };
 const morph: Body<"morph_order"> = {};
 
+/** An exported version under another name, which is part of its text. */
+async function renamed<Version extends { text: string; sha256: string }>(version: Version, from: string, to: string): Promise<Version> {
+    const text = version.text.replace(`"id":"${from}"`, `"id":"${to}"`);
+    const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", new TextEncoder().encode(text)));
+    return { ...version, text, sha256: [...digest].map((byte) => byte.toString(16).padStart(2, "0")).join("") };
+}
+
+type Client = ReturnType<typeof createClient<paths>>;
+
+/** Calls every operation of the library. */
+async function callLibrary(client: Client, token: string, both: (head: Promise<Result>, get: Promise<Result>) => Promise<void>): Promise<void> {
+    const headers = { Authorization: `Bearer ${token}` };
+    const { data: template } = await client.GET("/v1/species/{id}", { params: { path: { id: "boletus_edulis" } } });
+    if (!template) throw new Error("there is no species to begin with");
+    const own = { ...template, id: "typed_bolete" };
+    const { data: created } = await client.POST("/v1/library", { headers, body: own });
+    const draft: string = created?.draft ?? "";
+    const path = { species: created?.id ?? "" };
+    const condition = { path, header: { "If-Match": draft } };
+    await client.PUT("/v1/library/{species}", { headers, params: condition, body: own });
+    const { data: published } = await client.POST("/v1/library/{species}/publish", { headers, params: condition, body: { note: "first" } });
+    if (published?.newest !== 1) throw new Error("the species is not published");
+    const version = { params: { path: { species: `${path.species}@${published.newest}` } } };
+    await both(client.HEAD("/v1/library/{species}", version), client.GET("/v1/library/{species}", version));
+    await client.HEAD("/v1/library", {});
+    const { data: listed } = await client.GET("/v1/library", { params: { query: { q: "typed" } } });
+    if (listed?.species[0]?.id !== path.species) throw new Error("the species is not listed");
+    await client.POST("/v1/library/{species}/fork", { headers, params: { path }, body: { name: "typed_fork" } });
+    await both(client.HEAD("/v1/library/quota", { headers }), client.GET("/v1/library/quota", { headers }));
+
+    const { data: key } = await client.POST("/v1/library/{species}/shares", { headers, params: { path }, body: { expires_s: 3600 } });
+    await both(client.HEAD("/v1/library/{species}/shares", { headers, params: { path } }), client.GET("/v1/library/{species}/shares", { headers, params: { path } }));
+    await client.DELETE("/v1/library/{species}/shares/{share}", { headers, params: { path: { ...path, share: key?.id ?? "" } } });
+
+    await client.HEAD("/v1/library/{species}/export.json", { headers, params: { path } });
+    const { data: exported } = await client.GET("/v1/library/{species}/export.json", { headers, params: { path } });
+    if (!exported) throw new Error("the species is not exported");
+    await client.DELETE("/v1/library/{species}", { headers, params: { ...condition, query: { purge: true } } });
+    const versions = await Promise.all(exported.versions.map(async (one) => renamed(one, "typed_bolete", "typed_import")));
+    await client.POST("/v1/library/import", { headers, body: { ...exported, name: "typed_import", versions } });
+
+    await both(client.HEAD("/v1/tokens", { headers }), client.GET("/v1/tokens", { headers }));
+    const { data: made } = await client.POST("/v1/tokens", { headers, body: { label: "for a test", scope: "read" } });
+    await client.DELETE("/v1/tokens/{token}", { headers, params: { path: { token: made?.id ?? "" } } });
+}
+
 interface Result {
     response: Response;
     data?: unknown;
 }
 
-/** Calls every operation; tells which, as "GET /v1", and with what status each was answered. */
-export async function callAll(baseUrl: string): Promise<Map<string, number>> {
+/**
+ * Calls every operation; tells which, as "GET /v1", and with what status each was answered.
+ *
+ * token  of an owner of species, with the scope admin
+ */
+export async function callAll(baseUrl: string, token: string): Promise<Map<string, number>> {
     const client = createClient<paths>({ baseUrl });
     const statuses = new Map<string, number>();
     client.use({
@@ -155,6 +205,8 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const { data: checked } = await client.POST("/v1/outlines/check", { body: { silhouette: outline.silhouette } });
     if (checked?.simple !== true) throw new Error("the traced outline can not be grown");
     await client.DELETE("/v1/photos/{photo}.jpg", stored);
+
+    await callLibrary(client, token, both);
 
     const { data: inspected } = await client.POST("/v1/inspect", {
         body: made as unknown as string, // a file: its type is "string" of format "binary"

@@ -35,7 +35,7 @@ test("a generated client compiles and calls every operation of the document", as
     run("typescript/bin/tsc");
 
     const { callAll } = await import(pathToFileURL(path.join(folder, "client.mjs")));
-    const statuses = await callAll(url);
+    const statuses = await callAll(url, process.env.SPOREPRINT_TOKEN ?? "");
     const uncalled = operationsOf(document).map(({ method, path: at }) => `${method} ${at}`).filter((one) => !statuses.has(one));
     assert.deepEqual(uncalled, [], "operations that no call of the client is of");
     const refused = [...statuses].filter(([, status]) => ![200, 201, 204].includes(status));

@@ -108,6 +108,7 @@ export class Generator {
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
         if (name === "type") return dice.pick(lists.types);
         if (name === "photo") return dice.pick(lists.photos);
+        if (name === "species") return dice.pick(lists.library) + dice.pick(["", "@1", "@2"]);
         if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
         return undefined;
     }
@@ -117,8 +118,11 @@ export class Generator {
         const { dice } = this;
         const headers = {};
         const query = [];
-        // A photograph may have been deleted by then, and few lines are those of a mushroom.
-        let right = !path.startsWith("/v1/photos/") && path !== "/v1/traces", wrong = false, target = path;
+        // A photograph may have been deleted by then, few lines are those of a mushroom, and a species of the library
+        // is there for some and not for others.
+        const ofLibrary = /^\/v1\/(library|tokens)/.test(path);
+        if (ofLibrary && dice.chance(0.8)) headers.Authorization = `Bearer ${this.lists.token}`;
+        let right = !path.startsWith("/v1/photos/") && path !== "/v1/traces" && !ofLibrary, wrong = false, target = path;
         for (const parameter of operation.parameters ?? []) {
             if (parameter.in !== "path") continue;
             let value = this.pathValue(parameter.name, path) ?? this.right(parameter.schema, parameter.name);
@@ -174,16 +178,25 @@ export class Generator {
         headers["Accept-Encoding"] = dice.pick(["gzip", "identity"]);
         if (method === "GET" && dice.chance(0.1)) headers["Range"] = dice.pick(["bytes=0-99", "bytes=-20", "bytes=5-", "bytes=0-1,5-9", "bytes=99999999999-", "lines=1-2"]);
         if (dice.chance(0.03)) headers["If-None-Match"] = dice.pick(["*", '"nothing"', 'W/"x", "y"']);
-        if (dice.chance(0.02)) headers["If-Match"] = dice.pick(["*", '"nothing"']);
+        if (dice.chance(ofLibrary ? 0.6 : 0.02)) headers["If-Match"] = dice.pick(["*", '"nothing"']);
         return { method, target, headers, body, right, wrong };
     }
 }
 
-/** Fetches the ids that requests are made of: species by family, presets, types of problems, a file to inspect, a picture, and the names of photographs. */
+/** Fetches the ids that requests are made of: species by family, presets, types of problems, a file to inspect, a picture, the names of photographs, and species of the library. */
 export async function listsOf(url, document) {
     const bytesOf = async (path) => new Uint8Array(await (await fetch(url + path)).arrayBuffer());
     const picture = await bytesOf("/v1/mushrooms/boletus_edulis.png?width=256&height=256&view=front&background=grey&lod=2");
     const uploaded = async () => (await (await fetch(`${url}/v1/photos`, { method: "POST", headers: { "Content-Type": "image/png" }, body: picture })).json()).photo;
+    const token = process.env.SPOREPRINT_TOKEN ?? "";
+    const template = await (await fetch(`${url}/v1/species/boletus_edulis`)).json();
+    const published = async (name) => {
+        const send = (method, path, body, headers = {}) =>
+            fetch(url + path, { method, headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json", ...headers }, body: JSON.stringify(body) });
+        await send("POST", "/v1/library", { ...template, id: name });
+        await send("POST", `/v1/library/~me.${name}/publish`, {}, { "If-Match": "*" });
+        return `~me.${name}`;
+    };
     const list = async (path, key) => (await (await fetch(url + path)).json())[key].map((one) => one.id);
     return {
     families: [await list("/v1/species?family=swept", "species"), await list("/v1/species?family=branched", "species")],
@@ -193,5 +206,7 @@ export async function listsOf(url, document) {
     file: await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128"),
     picture,
     photos: await Promise.all(Array.from({ length: 12 }, uploaded)),
+    token,
+    library: await Promise.all(["one", "two", "three", "four"].map(published)),
     };
 }

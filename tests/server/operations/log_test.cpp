@@ -111,5 +111,20 @@ TEST(Log, NeverHasTheNameOfAPhotograph) {
     EXPECT_NE(text.find("/v1/photos/{photo}.jpg"), std::string::npos) << text;
 }
 
+TEST(Log, DoesNotHaveTheKeysOfShares) {
+    Served served;
+    served.method = "GET";
+    served.label = "/v1/library/{species}";
+    served.target = "/v1/library/~kaja.red_bolete?sh%61re=sps_abcdefgh_secret";
+    testing::internal::CaptureStderr();
+    {
+        Log log(LogLevel::info);
+        log.request(served);
+    }
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_NE(text.find("/v1/library/~kaja.red_bolete\""), std::string::npos) << text;
+    EXPECT_EQ(text.find("secret"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace sporeprint::server::operations_log_test

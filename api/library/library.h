@@ -1,0 +1,81 @@
+// The library of users' species: what is published, in memory, and the species that requests use.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+#include <string_view>
+
+#include "api/cache/cache.h"
+#include "api/library/names.h"
+#include "api/library/records.h"
+#include "core/atlas/atlas.h"
+
+namespace sporeprint::api {
+
+/// The species of users, of which published versions can be named wherever a built-in species can. Thread-safe.
+class Library {
+  public:
+    using Clock = std::function<Seconds()>;
+
+    /// Reads what is published.
+    ///
+    /// throws  Unavailable
+    explicit Library(std::shared_ptr<Records> records, Clock clock = {});
+
+    /// The database. Its functions block, so jobs alone call them.
+    [[nodiscard]] Records& records() { return *records_; }
+
+    [[nodiscard]] Seconds now() const { return clock_(); }
+
+    /// Reads what was published or withdrawn since the last time, here or by another process. Returns true if that was
+    /// anything; responses to addresses without the number of a version may then be others.
+    ///
+    /// throws  Unavailable
+    bool refresh();
+
+    /// What is known about an id without asking the database.
+    struct Found {
+        LibraryName name;     ///< with the number of the version, if `status` is 200
+        int status = 200;     ///< 200; 404 for what does not exist; 410 for what was purged
+        std::string message;  ///< unless `status` is 200
+        std::shared_ptr<const AtlasEntry> entry;  ///< nullptr if it has to be loaded
+    };
+
+    /// Finds a published version: that of the number, or the newest.
+    [[nodiscard]] Found find(std::string_view id);
+
+    /// Reads a published version from the database, unless it is in memory.
+    ///
+    /// throws  Unavailable, GenerationError; InvalidInput if it was purged meanwhile
+    std::shared_ptr<const AtlasEntry> load(const LibraryName& name);
+
+    /// Returns the number of the next write, which makes the keys of all writes differ.
+    [[nodiscard]] std::uint64_t next_write() { return ++writes_; }
+
+  private:
+    struct Published {
+        DocumentState state = DocumentState::active;
+        std::vector<std::pair<int, Digest>> versions;
+    };
+
+    std::shared_ptr<Records> records_;
+    Clock clock_;
+    ComputingCache<std::shared_ptr<const AtlasEntry>> entries_;
+    mutable std::shared_mutex mutex_;
+    std::map<std::string, Published, std::less<>> published_;  ///< by "~owner.name"
+    std::mutex refresh_mutex_;
+    std::int64_t serial_ = 0;  ///< of the last change in `published_`; guarded by refresh_mutex_
+    std::atomic<std::uint64_t> writes_{0};
+};
+
+/// Returns an entry of an atlas for a species of the library, under the id by which it is named.
+[[nodiscard]] std::shared_ptr<const AtlasEntry> entry_of(Species species, const std::string& id);
+
+}  // namespace sporeprint::api

@@ -1,0 +1,121 @@
+#include "api/products/library_access.h"
+
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "api/http/text.h"
+#include "api/library/tokens.h"
+#include "api/products/photos.h"
+#include "core/params/messages.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+Response unauthorized(const ResponseBuilder& responses, const Request& request,
+                      std::string_view detail) {
+    Response response = responses.problem(request, 401, detail);
+    set_header(response, "WWW-Authenticate", "Bearer realm=\"sporeprint\"");
+    return response;
+}
+
+/// Finds out who sends a request. An unknown id takes as long as a wrong secret.
+///
+/// returns  the caller, or the response that refuses the token
+std::variant<Caller, Response> authenticated(Library& library, const ResponseBuilder& responses,
+                                             const Request& request, Access access, Scope scope) {
+    const std::string_view given = request.header("Authorization");
+    if (given.empty()) {
+        if (access != Access::required) return Caller{};
+        return unauthorized(responses, request,
+                            "a token is needed: send 'Authorization: Bearer spk_...'");
+    }
+    constexpr std::string_view scheme = "Bearer ";
+    const bool is_bearer =
+        given.size() > scheme.size() && same_word(given.substr(0, scheme.size()), scheme);
+    const std::optional<Secret> secret =
+        is_bearer ? read_secret(token_prefix, trimmed(given.substr(scheme.size()))) : std::nullopt;
+    if (!secret)
+        return unauthorized(responses, request,
+                            "the Authorization header is not 'Bearer' and a token, spk_ with 8 and "
+                            "43 characters");
+    const std::optional<Token> token = library.records().token(secret->id);
+    const bool is_equal =
+        equal_in_constant_time(token ? token->secret : Digest{}, secret->digest) && token;
+    const Seconds now = library.now();
+    if (!is_equal) return unauthorized(responses, request, "there is no such token");
+    if (token->revoked) return unauthorized(responses, request, "the token was revoked");
+    if (token->expires && *token->expires <= now)
+        return unauthorized(responses, request, "the token has expired");
+    if (token->is_owner_disabled)
+        return unauthorized(responses, request, "the owner of the token is disabled");
+    if (access == Access::required && token->scope < scope) {
+        Response response =
+            responses.problem(request, 403,
+                              std::string("the token has the scope ") + name(token->scope) +
+                                  "; needed is " + name(scope));
+        set_header(response, "WWW-Authenticate",
+                   "Bearer realm=\"sporeprint\", error=\"insufficient_scope\", scope=\"" +
+                       std::string(name(scope)) + '"');
+        return response;
+    }
+    library.records().note_use(token->id, now);
+    return Caller{token->owner, token->scope, token->id};
+}
+
+}  // namespace
+
+Response withdrawn(const ResponseBuilder& responses, const Request& request,
+                   std::string_view detail) {
+    return responses.problem(
+        request, 410, detail, {},
+        {{"type", Value(responses.link("/problems/withdrawn"))}, {"title", Value("Withdrawn")}});
+}
+
+Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler) {
+    const Context& context = call.context;
+    if (!context.library) return context.responses.problem(call.request, 404, no_library);
+    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    const std::string key = "library " + std::to_string(context.library->next_write());
+    // What is written is a few milliseconds of the disk, and of a processor for a species of 100 kB.
+    const Cost cost{.base = 3000 + call.request.body.size() / 20};
+    auto run = [&context, library = context.library, request = call.request, target = call.target,
+                captured = call.captured, access = call.route.access, scope,
+                handler](const std::stop_token&, const Observer& observer, const Parallel&) {
+        observer(Step::resolve);
+        auto who = authenticated(*library, context.responses, request, access, scope);
+        if (Response* const refusal = std::get_if<Response>(&who)) return std::move(*refusal);
+        LibraryCall library_call{*library,
+                                 library->records(),
+                                 request,
+                                 target,
+                                 captured,
+                                 context,
+                                 std::get<Caller>(std::move(who))};
+        return handler(library_call);
+    };
+    return Job{key, cost, std::move(run)};
+}
+
+Response library_json(const Value& body, int status) {
+    Response response;
+    response.status = status;
+    response.headers = {{"Content-Type", "application/json"}, {"Cache-Control", private_to_client}};
+    response.body = {slice_of(dump(body))};
+    return response;
+}
+
+std::string etag_of_text(const Digest& hash) { return '"' + hex_of(hash) + '"'; }
+
+LibraryName read_species(const std::string& captured, bool may_have_number,
+                         ValidationErrors& errors) {
+    const std::optional<LibraryName> name = read_library_name(captured);
+    if (name && (may_have_number || name->number == 0)) return *name;
+    errors.add(404, "species",
+               in_quotes(captured) + " is not the name of a species in the library; allowed is " +
+                   (may_have_number ? "~owner.name or ~owner.name@3" : "~owner.name"));
+    return {};
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,77 @@
+// What all routes of the library share: who sends a request, and how a job uses the database.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "api/library/names.h"
+#include "api/library/records.h"
+#include "api/products/context.h"
+
+namespace sporeprint::api {
+
+/// What is said by a service without --library.
+inline constexpr const char* no_library =
+    "this service has no library of species; its operator starts it with --library FILE";
+
+/// Returns 410 for a species that its owner has withdrawn.
+[[nodiscard]] Response withdrawn(const ResponseBuilder& responses, const Request& request,
+                                 std::string_view detail);
+
+/// Who sends a request.
+struct Caller {
+    std::string owner;  ///< empty for nobody
+    Scope scope = Scope::read;
+    std::string token;  ///< id
+
+    [[nodiscard]] bool is(std::string_view name) const { return !owner.empty() && owner == name; }
+};
+
+/// A request to the library, in a job: it may block.
+struct LibraryCall {
+    Library& library;
+    Records& records;
+    const Request& request;
+    const Target& target;
+    const std::vector<std::string>& captured;
+    const Context& context;
+    Caller caller;
+
+    [[nodiscard]] const ResponseBuilder& responses() const { return context.responses; }
+    [[nodiscard]] Response problem(int status, std::string_view detail,
+                                   const Value::Object& more = {}) const {
+        return context.responses.problem(request, status, detail, {}, more);
+    }
+    [[nodiscard]] Response problem(const ValidationErrors& errors) const {
+        return context.responses.problem(request, errors);
+    }
+};
+
+using LibraryHandler = Response (*)(LibraryCall&);
+
+/// Plans a request to the library: the job checks the token and calls the handler. Once it has begun it is not
+/// cancelled, so that a client which has gone away knows no less than the database.
+///
+/// scope  that the token needs, if Route::access requires one
+[[nodiscard]] Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler);
+
+/// A handler of Route::plan.
+template <Scope scope, LibraryHandler handler>
+Plan library_route(RouteCall& call) {
+    return plan_library(call, scope, handler);
+}
+
+/// Returns a response in JSON that nobody but the client may store.
+[[nodiscard]] Response library_json(const Value& body, int status = 200);
+
+/// Returns the strong entity tag of a text: "<sha256>" with its quotes.
+[[nodiscard]] std::string etag_of_text(const Digest& hash);
+
+/// Reads the {species} of a path. Adds 404 if it is no name.
+///
+/// may_have_number  "@3" is allowed
+[[nodiscard]] LibraryName read_species(const std::string& captured, bool may_have_number,
+                                       ValidationErrors& errors);
+
+}  // namespace sporeprint::api
