@@ -21,13 +21,11 @@ std::string random_name() {
     return base64url_text(bits);
 }
 
-/// Returns the size of a cut: a mask of the large working copy.
-std::size_t mask_bytes(const StoredPhoto& photo) {
-    const auto width = static_cast<std::size_t>(photo.width),
-               height = static_cast<std::size_t>(photo.height);
-    const std::size_t longest = std::max({width, height, std::size_t{1}}),
-                      side = std::min(longest, std::size_t{trace::large_side});
-    return (width * side / longest + 1) * (height * side / longest + 1);
+/// Returns the size of a cut: a working copy of three bytes a pixel, and a mask of one.
+std::size_t cut_bytes(const StoredPhoto& photo) {
+    const trace::PictureSize size =
+        trace::reduced_size(photo.width, photo.height, trace::large_side);
+    return 4 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
 }
 
 }  // namespace
@@ -47,7 +45,7 @@ std::list<Photos::Entry>::iterator Photos::entry(std::string_view name, Time now
 
 std::string Photos::insert(StoredPhoto photo, Time now) {
     const std::size_t bytes =
-        photo.jpeg.size + mask_bytes(photo) + (photo.cut_out ? photo.cut_out->inside.size() : 0);
+        photo.jpeg.size + cut_bytes(photo) + (photo.cut_out ? photo.cut_out->inside.size() : 0);
     Entry added{random_name(), std::make_shared<const StoredPhoto>(std::move(photo)), nullptr,
                 bytes, now + lifetime};
     std::string name = added.name;
@@ -79,10 +77,14 @@ bool Photos::erase(std::string_view name, Time now) {
 
 std::shared_ptr<const StoredCut> Photos::cut(std::string_view name, std::string_view gesture,
                                              Time now) {
+    std::shared_ptr<const StoredCut> last = last_cut(name, now);
+    return last && last->gesture == gesture ? last : nullptr;
+}
+
+std::shared_ptr<const StoredCut> Photos::last_cut(std::string_view name, Time now) {
     const std::lock_guard lock(mutex_);
     const auto found = entry(name, now);
-    if (found == entries_.end() || !found->cut || found->cut->gesture != gesture) return nullptr;
-    return found->cut;
+    return found == entries_.end() ? nullptr : found->cut;
 }
 
 void Photos::store_cut(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now) {

@@ -24,9 +24,10 @@ struct StoredPhoto {
     std::optional<trace::Mask> cut_out;
 };
 
-/// The mushroom that a gesture has cut out of a photograph.
+/// The mushroom that a gesture has cut out of a photograph, and the working copy that it was cut out of.
 struct StoredCut {
     std::string gesture;  ///< canonical text
+    Picture picture;
     trace::Mask mask;
 };
 
@@ -61,6 +62,9 @@ class Photos {
     [[nodiscard]] std::shared_ptr<const StoredCut> cut(std::string_view name,
                                                        std::string_view gesture, Time now);
 
+    /// Returns what the last gesture has cut out of a photograph; nullptr if there was none.
+    [[nodiscard]] std::shared_ptr<const StoredCut> last_cut(std::string_view name, Time now);
+
     /// Stores the last cut of a photograph, if that is still there.
     void store_cut(std::string_view name, std::shared_ptr<const StoredCut> cut, Time now);
 
@@ -73,7 +77,7 @@ class Photos {
         std::string name;
         std::shared_ptr<const StoredPhoto> photo;
         std::shared_ptr<const StoredCut> cut;
-        std::size_t bytes = 0;  ///< with a mask for its last cut
+        std::size_t bytes = 0;  ///< with its last cut
         Time expires;
     };
 

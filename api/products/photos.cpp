@@ -52,14 +52,9 @@ Plan plan_upload(RouteCall& call) {
                                                      photo.picture.height, quality, Chroma::full))),
             photo.picture.width, photo.picture.height, std::nullopt};
         if (photo.cut_out) {
-            const Picture& picture = photo.picture;
-            const int longest = std::max(picture.width, picture.height);
-            const double factor = std::min(1.0, static_cast<double>(trace::large_side) / longest);
-            const auto side = [factor](int length) {
-                return std::max(1, static_cast<int>(length * factor + 0.5));
-            };
-            stored.cut_out =
-                trace::resized(*photo.cut_out, side(picture.width), side(picture.height));
+            const trace::PictureSize size =
+                trace::reduced_size(photo.picture.width, photo.picture.height, trace::large_side);
+            stored.cut_out = trace::resized(*photo.cut_out, size.width, size.height);
         }
         const bool has_alpha = stored.cut_out.has_value();
         const std::string name =

@@ -26,9 +26,6 @@ constexpr const char* json = "application/json";
 
 // --- Responses --------------------------------------------------------------------------
 
-/// Most points of a line in a response: one for every few pixels of a photograph.
-constexpr std::size_t most_line_points = 256;
-
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 
 double hundredths(double value) { return std::round(value * 100.0) / 100.0; }
@@ -39,9 +36,7 @@ Value point(const glm::dvec2& pixel) {
 
 Value points(std::span<const glm::dvec2> pixels) {
     Value list = Value::array();
-    const std::size_t count = std::min(pixels.size(), most_line_points);
-    for (std::size_t k = 0; k < count; ++k)
-        list.push(point(pixels[count > 1 ? k * (pixels.size() - 1) / (count - 1) : 0]));
+    for (const glm::dvec2& pixel : pixels) list.push(point(pixel));
     return list;
 }
 
@@ -68,6 +63,7 @@ Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
     outline.set("axis", points(traced.axis));
     Value marks = Value::object();
     marks.set("junctions", points(traced.junctions)).set("margins", points(traced.margins));
+    marks.set("cap_turn_deg", hundredths(traced.cap_turn_deg.value_or(0.0)));
     Value angles = Value::object();
     angles.set("lean_deg", hundredths(traced.lean_deg))
         .set("bend_deg", hundredths(traced.bend_deg));
@@ -115,17 +111,30 @@ std::pair<Spec, std::vector<Problem>> read_spec(std::string_view body, Validatio
 
 // --- Traces -----------------------------------------------------------------------------
 
+Picture decoded(const StoredPhoto& photo) {
+    return decoded_layers({photo.jpeg.data(), photo.jpeg.size}, trace::decoded_side, "").picture;
+}
+
+/// Returns the mushroom on a photograph as it was cut out.
+MushroomOnPhoto mushroom_of(const StoredCut& cut, const StoredPhoto& photo) {
+    return {cut.picture, cut.mask, static_cast<double>(cut.picture.width) / photo.width};
+}
+
 /// Returns the mushroom on a photograph, which the last trace of it has perhaps cut out already.
-std::shared_ptr<const StoredCut> cut_of(Photos& photos, const Picture& picture,
-                                        const StoredPhoto& photo, const trace::TraceSpec& spec,
-                                        const std::string& gesture) {
+MushroomOnPhoto mushroom_on_stored(Photos& photos, const StoredPhoto& photo,
+                                   const trace::TraceSpec& spec, const std::string& gesture) {
     const std::string_view name = spec.views.side.photo;
     const auto now = std::chrono::steady_clock::now();
-    if (auto known = photos.cut(name, gesture, now)) return known;
-    auto cut = std::make_shared<const StoredCut>(
-        StoredCut{gesture, mushroom_on(picture, photo.cut_out, spec)});
-    photos.store_cut(name, cut, now);
-    return cut;
+    if (spec.outline) {
+        const auto last = photos.last_cut(name, now);
+        return last ? outlined_on(last->picture, {photo.width, photo.height}, spec)
+                    : mushroom_on(decoded(photo), photo.cut_out, spec);
+    }
+    if (const auto known = photos.cut(name, gesture, now)) return mushroom_of(*known, photo);
+    MushroomOnPhoto on = mushroom_on(decoded(photo), photo.cut_out, spec);
+    photos.store_cut(
+        name, std::make_shared<const StoredCut>(StoredCut{gesture, on.picture, on.mask}), now);
+    return on;
 }
 
 Plan plan_trace(RouteCall& call) {
@@ -143,13 +152,15 @@ Plan plan_trace(RouteCall& call) {
     const std::shared_ptr<const StoredPhoto> photo =
         errors.empty() ? context.store.photos.find(side.photo, now) : nullptr;
     if (errors.empty() && !photo) errors.add(404, "/views/side/photo", photo_is_gone);
-    if (errors.empty() && !photo->cut_out && !side.gesture)
+    if (errors.empty() && !photo->cut_out && !side.gesture && !spec->outline)
         errors.add(422, "/views/side/gesture",
-                   "is missing; only a picture that is cut out already needs none");
+                   "is missing; only a picture that is cut out already, or an outline with marks, "
+                   "needs none");
     if (!errors.empty()) return context.responses.problem(call.request, errors);
 
     const std::string gesture = side.gesture ? dump(write(*side.gesture)) : std::string();
-    const bool is_cut = photo->cut_out || context.store.photos.cut(side.photo, gesture, now);
+    const bool is_cut =
+        photo->cut_out || spec->outline || context.store.photos.cut(side.photo, gesture, now);
     const Cost cost{.base = (is_cut ? 80'000U : 400'000U) + (spec->images ? 80'000U : 0U)};
     auto run = [spec, photo, gesture, &context](const std::stop_token& stop,
                                                 const Observer& observer,
@@ -158,17 +169,13 @@ Plan plan_trace(RouteCall& call) {
             if (stop.stop_requested()) throw Cancelled();
         };
         observer(Step::resolve);
-        const Picture picture =
-            decoded_layers({photo->jpeg.data(), photo->jpeg.size}, trace::decoded_side, "").picture;
-        const std::shared_ptr<const StoredCut> cut =
-            cut_of(context.store.photos, picture, *photo, *spec, gesture);
+        const MushroomOnPhoto on = mushroom_on_stored(context.store.photos, *photo, *spec, gesture);
         go_on();
         const NearestSpecies& nearest = context.nearest.get(*context.atlas, parallel);
         go_on();
         observer(Step::build);
         return private_json(
-            trace_body(species_from_photo(picture, cut->mask, *spec, *context.atlas, nearest),
-                       *context.atlas));
+            trace_body(species_from_photo(on, *spec, *context.atlas, nearest), *context.atlas));
     };
     return Job{"trace " + std::to_string(context.store.uploads++), cost, std::move(run)};
 }
@@ -249,9 +256,12 @@ void add_schemas(Value& schemas, const Atlas&) {
               described(objects({{"left", line}, {"right", line}, {"axis", line}}),
                         "On the photograph, in its pixels: both sides from the foot to the apex, "
                         "and the axis.")},
-             {"marks", described(objects({{"junctions", line}, {"margins", line}}),
-                                 "Where stem and lower face meet, and the margin of the cap: left "
-                                 "and right.")},
+             {"marks",
+              described(objects({{"junctions", line}, {"margins", line}, {"cap_turn_deg", number}}),
+                        "Where stem and lower face meet, and the margin of the cap: left "
+                        "and right; how the cap stands against the top of the stem, to "
+                        "the right where positive. Outline, marks and form, sent back, "
+                        "give the same shape without a cut.")},
              {"angles",
               described(objects({{"lean_deg", number}, {"bend_deg", number}}),
                         "Of the line from the foot to the top of the stem, to the right where "
@@ -305,6 +315,23 @@ void add_bodies(Value& bodies, const Atlas&) {
         return *object.find("properties")->find(member);
     };
     static_cast<void>(require(require(require(order, "views"), "side"), "photo"));
+    const auto give_example = [&order](const char* member, Value example) {
+        order.find("properties")
+            ->find(member)
+            ->set("examples", Value(Value::Array{std::move(example)}));
+    };
+    const auto side = [&](double outwards) {
+        const auto at = [&](double x, double y) { return pixel(512 + outwards * x, y); };
+        return Value(Value::Array{at(0, 900), at(60, 890), at(60, 700), at(60, 500), at(60, 400),
+                                  at(280, 410), at(290, 360), at(200, 200), at(0, 120)});
+    };
+    give_example("outline",
+                 object({{"left", side(-1)},
+                         {"right", side(1)},
+                         {"axis", Value(Value::Array{pixel(512, 900), pixel(512, 120)})}}));
+    give_example("marks",
+                 object({{"junctions", Value(Value::Array{pixel(452, 400), pixel(572, 400)})},
+                         {"margins", Value(Value::Array{pixel(232, 410), pixel(792, 410)})}}));
     bodies.set(
         "trace_order",
         json_body(

@@ -1,6 +1,7 @@
 #include "core/grow/species_from_photo.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/params/messages.h"
@@ -75,21 +76,54 @@ trace::Mask cleaned(const trace::Mask& cut_out, const trace::Gesture& gesture,
     return mask;
 }
 
+/// Requires that all points of an outline are on a photograph.
+void require_on(const trace::PictureSize& photo, const trace::MarkedOutline& outline) {
+    constexpr double slack = 2.0;  // working copies are of whole pixels
+    std::vector<Problem> problems;
+    const auto require_points = [&](std::span<const glm::dvec2> points, const std::string& path) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (points[i].x > photo.width + slack || points[i].y > photo.height + slack)
+                report(problems, path + "/" + std::to_string(i),
+                       "is not on the photograph of " + std::to_string(photo.width) + " x " +
+                           std::to_string(photo.height) + " pixels");
+    };
+    require_points(outline.left, "/outline/left");
+    require_points(outline.right, "/outline/right");
+    require_points(outline.axis, "/outline/axis");
+    require_points(outline.junctions, "/marks/junctions");
+    require_points(outline.margins, "/marks/margins");
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+}
+
+/// Returns the given outline of a specification on a working copy.
+trace::MarkedOutline outline_on_copy(const trace::TraceSpec& spec, double factor) {
+    return trace::rounded(trace::scaled(*trace::marked_outline_of(spec), factor));
+}
+
+/// What was found on a mask or given, and its trace.
+struct Trace {
+    trace::FoundOutline found;
+    trace::Traced traced;
+};
+
+Trace traced_as(trace::FoundOutline found, const trace::TraceParams& params) {
+    trace::Traced traced = trace::traced(found, params);
+    return {std::move(found), std::move(traced)};
+}
+
 /// Traces what is on a mask: by the stated form or the one that fits the outline, or if that cannot be grown by the
 /// first that can.
-trace::Traced traced_by_any_form(const trace::Mask& mask, const trace::Gesture& gesture,
-                                 const trace::TraceParams& params) {
+Trace traced_by_any_form(const trace::Mask& mask, const trace::Gesture& gesture,
+                         const trace::TraceParams& params) {
     try {
-        return trace::traced(mask, gesture, params);
+        return traced_as(trace::outline_on(mask, gesture, params.form), params);
     } catch (const Impossible&) {
         if (params.form != trace::Form::automatic) throw;
         using trace::Form;
         for (const Form form :
              {Form::cup, Form::puffball, Form::funnel, Form::capped, Form::club, Form::morel}) {
-            trace::TraceParams other = params;
-            other.form = form;
             try {
-                return trace::traced(mask, gesture, other);
+                return traced_as(trace::outline_on(mask, gesture, form), params);
             } catch (const InvalidInput&) {
                 continue;
             }
@@ -179,40 +213,65 @@ std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
 
 }  // namespace
 
-trace::Mask mushroom_on(const Picture& photo, const std::optional<trace::Mask>& cut_out,
-                        const trace::TraceSpec& spec) {
+MushroomOnPhoto mushroom_on(const Picture& photo, const std::optional<trace::Mask>& cut_out,
+                            const trace::TraceSpec& spec) {
+    const trace::PictureSize size{photo.width, photo.height};
+    Picture copy = trace::reduced(photo, trace::large_side);
+    if (spec.outline) return outlined_on(std::move(copy), size, spec);
     return with_paths_of_spec([&] {
         const trace::Gesture gesture = drawn_gesture(spec);
-        if (!cut_out) return trace::cut_out(photo, gesture);
-        require_axis_alone(gesture);
-        const Picture large = trace::reduced(photo, trace::large_side);
-        return cleaned(*cut_out, gesture.scaled(static_cast<double>(large.width) / photo.width),
-                       large);
+        const double factor = static_cast<double>(copy.width) / size.width;
+        if (cut_out) {
+            require_axis_alone(gesture);
+            trace::Mask mask = cleaned(*cut_out, gesture.scaled(factor), copy);
+            return MushroomOnPhoto{std::move(copy), std::move(mask), factor};
+        }
+        trace::require_on(size, gesture);
+        trace::Mask mask = trace::cut_out_of_copy(copy, gesture.scaled(factor));
+        return MushroomOnPhoto{std::move(copy), std::move(mask), factor};
     });
 }
 
-SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mask,
-                                    const trace::TraceSpec& spec, const Atlas& atlas,
-                                    const NearestSpecies& nearest) {
+MushroomOnPhoto outlined_on(Picture copy, const trace::PictureSize& size,
+                            const trace::TraceSpec& spec) {
     return with_paths_of_spec([&] {
-        const double factor = static_cast<double>(mask.width) / photo.width;
-        trace::Gesture gesture = drawn_gesture(spec).scaled(factor);
-        if (gesture.axis.empty()) gesture.axis = trace::upright_line(mask);
-        const Picture large = trace::reduced(photo, trace::large_side);
+        const trace::MarkedOutline given = *trace::marked_outline_of(spec);
+        require_on(size, given);
+        trace::require_measurable(given, spec.form);
+        const double factor = static_cast<double>(copy.width) / size.width;
+        const trace::MarkedOutline outline = outline_on_copy(spec, factor);
+        trace::Contour contour = outline.left;
+        contour.insert(contour.end(), outline.right.rbegin(), outline.right.rend());
+        trace::Mask mask = trace::inside_of(contour, {copy.width, copy.height});
+        return MushroomOnPhoto{std::move(copy), std::move(mask), factor};
+    });
+}
+
+SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::TraceSpec& spec,
+                                    const Atlas& atlas, const NearestSpecies& nearest) {
+    return with_paths_of_spec([&] {
+        trace::Gesture gesture = drawn_gesture(spec).scaled(on.factor);
+        if (gesture.axis.empty()) gesture.axis = trace::upright_line(on.mask);
         SpeciesFromPhoto found;
-        found.nearest = nearest.find(trace::likeness_of(large, mask), atlas.entries().size());
+        found.nearest =
+            nearest.find(trace::likeness_of(on.picture, on.mask), atlas.entries().size());
         // Without a template, the form decides what can be one; otherwise the template has one.
         const bool is_any = spec.template_id.view() == "auto";
-        std::optional<trace::Traced> first;
-        if (is_any) first = traced_by_any_form(mask, gesture, {.form = spec.form});
-        const NearSpecies chosen = is_any ? chosen_template(first->form, atlas, found.nearest)
+        std::optional<Trace> first;
+        if (spec.outline) {
+            const trace::FoundOutline given{outline_on_copy(spec, on.factor), spec.form};
+            first = traced_as(given, {});
+        } else if (is_any) {
+            first = traced_by_any_form(on.mask, gesture, {.form = spec.form});
+        }
+        const NearSpecies chosen = is_any ? chosen_template(first->found.form, atlas, found.nearest)
                                           : named_template(spec.template_id, found.nearest);
         found.template_id = chosen.id;
         found.nearest.resize(std::min(found.nearest.size(), most_named));
         const Species& lender = atlas.find(chosen.id)->species;
         trace::TraceParams params = trace::params_like(lender, chosen.age, 0.1);
         if (first)
-            params.form = first->form;
+            params.form = first->found.form;
         else if (spec.form != trace::Form::automatic)
             params.form = spec.form;
         if (spec.hollow) params.hollow = *spec.hollow;
@@ -220,18 +279,20 @@ SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mas
         params.height_m = spec.height_m.value_or(has_height ? trace::height_at(lender, chosen.age)
                                                             : params.height_m);
         // Only the depth of a hollow depends on the template.
-        const trace::Traced traced =
-            first && !trace::is_hollow(first->form)
-                ? resized(*first, params.height_m / trace::TraceParams{}.height_m)
-                : trace::traced(mask, gesture, params);
+        trace::Traced traced =
+            !first ? trace::traced(on.mask, gesture, params)
+            : trace::is_hollow(first->found.form)
+                ? trace::traced(first->found, params)
+                : resized(first->traced, params.height_m / trace::TraceParams{}.height_m);
         found.whole = trace::whole_species(lender, traced.shape, chosen.age);
         trace::give_colours(found.whole.species, found.whole.stage,
-                            trace::part_colours(large, mask, traced));
+                            trace::part_colours(on.picture, on.mask, traced));
         found.whole.species.id = spec.id;
-        found.traced = trace::on_copy(traced, 1.0 / factor);
+        std::optional<trace::PhotoImages> images;
+        if (spec.images) images = trace::photo_images(on.picture, on.mask, traced, params.height_m);
+        found.traced = trace::on_copy(std::move(traced), 1.0 / on.factor);
         found.warnings = warnings_of(found);
-        if (spec.images)
-            give_images(found, trace::photo_images(large, mask, traced, params.height_m));
+        if (images) give_images(found, *images);
         return found;
     });
 }

@@ -30,24 +30,41 @@ struct SpeciesFromPhoto {
     std::vector<TraceWarning> warnings;
 };
 
-/// Returns the mushroom on a photograph, as a mask of its large working copy.
+/// A photograph as it is traced: its large working copy, and what is the mushroom on it.
+struct MushroomOnPhoto {
+    Picture picture;
+    trace::Mask mask;     ///< of the same size
+    double factor = 1.0;  ///< pixels of the copy of a pixel of the photograph
+};
+
+/// Returns the mushroom on a photograph: what is inside of an outline that is given, or else what the gesture cuts
+/// out.
 ///
 /// cut_out  the mushroom on a picture that is cut out already, of any size; none for others
-/// throws   Impossible (paths below "/views/side") if there is no gesture where one is needed, if it is not on
-///          the photograph, or if nothing hangs together on it
-/// cost     about 0.25 s, a few milliseconds for a picture that is cut out
-[[nodiscard]] trace::Mask mushroom_on(const Picture& photo,
-                                      const std::optional<trace::Mask>& cut_out,
-                                      const trace::TraceSpec& spec);
+/// throws   Impossible (paths as in a TraceSpec) if there is neither an outline nor a gesture where one is
+///          needed, if they are not on the photograph, if nothing hangs together on the gesture, or if the
+///          outline cannot be measured
+/// cost     about 0.25 s, a few milliseconds for a picture that is cut out or has an outline
+[[nodiscard]] MushroomOnPhoto mushroom_on(const Picture& photo,
+                                          const std::optional<trace::Mask>& cut_out,
+                                          const trace::TraceSpec& spec);
+
+/// Returns what is inside of the outline of a specification, on a photograph of which the working copy is known.
+///
+/// size    of the photograph
+/// pre     the specification has an outline and marks
+/// throws  as above
+[[nodiscard]] MushroomOnPhoto outlined_on(Picture copy, const trace::PictureSize& size,
+                                          const trace::TraceSpec& spec);
 
 /// Returns the species of a photographed mushroom.
 ///
-/// mask    as of mushroom_on()
+/// on      as of mushroom_on()
 /// pre     the template is "auto" or a species of the atlas
 /// throws  Impossible (paths as in a TraceSpec) if the mask shows no mushroom that can be traced, or the
 ///         template is no mushroom with a stem and a cap
 /// cost    about 40 ms
-[[nodiscard]] SpeciesFromPhoto species_from_photo(const Picture& photo, const trace::Mask& mask,
+[[nodiscard]] SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on,
                                                   const trace::TraceSpec& spec, const Atlas& atlas,
                                                   const NearestSpecies& nearest);
 

@@ -105,6 +105,29 @@ Contour contour_of(const Mask& mask, double sigma) {
     return smooth;
 }
 
+Mask inside_of(const Contour& contour, const PictureSize& size) {
+    Mask mask(size.width, size.height);
+    std::vector<double> crossings;
+    for (int y = 0; y < size.height; ++y) {
+        const double row = y + 0.5;
+        crossings.clear();
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            const glm::dvec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
+            if ((a.y <= row) != (b.y <= row))
+                crossings.push_back(a.x + (b.x - a.x) * (row - a.y) / (b.y - a.y));
+        }
+        std::sort(crossings.begin(), crossings.end());
+        for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+            const auto column = [&](double x) {
+                return static_cast<int>(std::ceil(std::clamp(x - 0.5, 0.0, size.width + 0.0)));
+            };
+            const int from = column(crossings[i]), to = column(crossings[i + 1]);
+            for (int x = from; x < to; ++x) mask.inside[mask.index(x, y)] = 1;
+        }
+    }
+    return mask;
+}
+
 std::vector<double> arc_lengths(const std::vector<glm::dvec2>& line) {
     std::vector<double> arcs{0.0};
     for (std::size_t i = 1; i < line.size(); ++i)

@@ -21,6 +21,11 @@ using Contour = std::vector<glm::dvec2>;
 /// cost   O(border * sigma)
 [[nodiscard]] Contour contour_of(const Mask& mask, double sigma);
 
+/// Returns the pixels whose middles are inside a contour: those with an odd number of its edges to their left.
+///
+/// cost   O(pixels + rows * points)
+[[nodiscard]] Mask inside_of(const Contour& contour, const PictureSize& size);
+
 /// Returns how far each point of an open line is along it: 0 for the first.
 [[nodiscard]] std::vector<double> arc_lengths(const std::vector<glm::dvec2>& line);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/math/elementary.h"
 #include "core/problems.h"
@@ -288,36 +289,50 @@ Mask cleaned(const Mask& mask, const Mask& strokes) {
         connected_with(opened(without_holes(connected_with(mask, strokes))), strokes));
 }
 
-void require_axis_on(const Picture& photo, const Gesture& gesture) {
+}  // namespace
+
+void require_on(const PictureSize& photo, const Gesture& gesture) {
     std::vector<Problem> problems;
     if (gesture.axis.size() < 2)
-        problems.push_back(
-            {"/gesture/axis", "needs at least two points, from the foot to the top"});
-    for (std::size_t i = 0; i < gesture.axis.size(); ++i) {
-        const glm::dvec2& at = gesture.axis[i];
-        if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= photo.width && at.y <= photo.height))
-            problems.push_back({"/gesture/axis/" + std::to_string(i),
-                                "is not on the photograph of " + std::to_string(photo.width) +
-                                    " x " + std::to_string(photo.height) + " pixels"});
-    }
+        report(problems, "/gesture/axis", "needs at least two points, from the foot to the top");
+    const std::string size = std::to_string(photo.width) + " x " + std::to_string(photo.height);
+    const auto require_stroke = [&](const Stroke& stroke, const std::string& path) {
+        for (std::size_t i = 0; i < stroke.size(); ++i) {
+            const glm::dvec2& at = stroke[i];
+            if (!(at.x >= 0.0 && at.y >= 0.0 && at.x <= photo.width && at.y <= photo.height))
+                report(problems, path + "/" + std::to_string(i),
+                       "is not on the photograph of " + size + " pixels");
+        }
+    };
+    require_stroke(gesture.axis, "/gesture/axis");
+    require_stroke(gesture.cap, "/gesture/cap");
+    for (std::size_t i = 0; i < gesture.keep.size(); ++i)
+        require_stroke(gesture.keep[i], "/gesture/keep/" + std::to_string(i));
+    for (std::size_t i = 0; i < gesture.drop.size(); ++i)
+        require_stroke(gesture.drop[i], "/gesture/drop/" + std::to_string(i));
+    if (const auto& frame = gesture.frame;
+        frame && (frame->from.x >= photo.width || frame->from.y >= photo.height))
+        report(problems, "/gesture/frame", "is not on the photograph of " + size + " pixels");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
-}  // namespace
-
-Mask cut_out(const Picture& photo, const Gesture& gesture) {
-    require_axis_on(photo, gesture);
-    const auto seeds_on = [&](const Picture& picture) {
-        return seeds_of(gesture.scaled(static_cast<double>(picture.width) / photo.width), picture);
-    };
-    const Picture large = reduced(photo, large_side), small = reduced(large, small_side);
-    const Seeds of_small = seeds_on(small), of_large = seeds_on(large);
+Mask cut_out_of_copy(const Picture& large, const Gesture& gesture) {
+    const Picture small = reduced(large, small_side);
+    const Seeds of_large = seeds_of(gesture, large),
+                of_small =
+                    seeds_of(gesture.scaled(static_cast<double>(small.width) / large.width), small);
     const Mask first = cleaned(SmallCut(small, of_small).solved(), of_small.mushroom);
     if (first.area() == 0)
         throw InvalidInput("/gesture/axis",
                            "nothing hangs together on this line; draw it from the foot to the top");
     const Colours colours = colours_of(small, first, inverted(first), of_small.mushroom);
     return cleaned(refined(large, first, colours, of_large), of_large.mushroom);
+}
+
+Mask cut_out(const Picture& photo, const Gesture& gesture) {
+    require_on({photo.width, photo.height}, gesture);
+    const Picture large = reduced(photo, large_side);
+    return cut_out_of_copy(large, gesture.scaled(static_cast<double>(large.width) / photo.width));
 }
 
 }  // namespace sporeprint::trace

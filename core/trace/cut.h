@@ -22,4 +22,15 @@ namespace sporeprint::trace {
 /// cost     about 0.15 s
 [[nodiscard]] Mask cut_out(const Picture& photo, const Gesture& gesture);
 
+/// Returns the mushroom on a large working copy, as above.
+///
+/// large    a photograph whose long side is at most large_side
+/// gesture  in pixels of the copy, with an axis of at least two points
+[[nodiscard]] Mask cut_out_of_copy(const Picture& large, const Gesture& gesture);
+
+/// Requires that a gesture has an axis, and that all its strokes are on a photograph.
+///
+/// throws   InvalidInput (paths below "/gesture")
+void require_on(const PictureSize& photo, const Gesture& gesture);
+
 }  // namespace sporeprint::trace

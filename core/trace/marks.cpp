@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/math/elementary.h"
 #include "core/problems.h"
@@ -113,6 +114,29 @@ class Turns {
     std::vector<double> arcs_;
     double side_, reach_;
 };
+
+/// Returns the point at a distance along a line from one of its points, forwards or backwards.
+glm::dvec2 along(const std::vector<glm::dvec2>& points, std::size_t from, double distance,
+                 bool forwards) {
+    std::size_t i = from;
+    while (forwards ? i + 1 < points.size() : i > 0) {
+        const std::size_t next = forwards ? i + 1 : i - 1;
+        const double step = glm::length(points[next] - points[i]);
+        if (step >= distance && step > 0.0)
+            return points[i] + (distance / step) * (points[next] - points[i]);
+        distance -= step;
+        i = next;
+    }
+    return points[i];
+}
+
+/// Returns the turn at a point of a line whose points are far apart, degrees: as of Turns.
+double turn_between(const std::vector<glm::dvec2>& points, double side, std::size_t i,
+                    double reach) {
+    const glm::dvec2 in = points[i] - along(points, i, reach, false),
+                     out = along(points, i, reach, true) - points[i];
+    return -side * arc_tangent(in.x * out.y - in.y * out.x, glm::dot(in, out)) * (180.0 / pi);
+}
 
 /// Marks one side. Returns true if stem and face meet at a corner.
 bool mark(ContourSide& side, double sign, double height) {
@@ -287,13 +311,20 @@ CapTurn turn_of_cap(const Marks& marks, const TracedAxis& axis, double height) {
     return best;
 }
 
+glm::dvec2 middle_of(const CapLine& line) {
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2& point : line.points)
+        middle += point / static_cast<double>(line.points.size());
+    return middle;
+}
+
 /// Lets the frame of a cup stand square to its edge, which waves: to the line from which its places are least
 /// away.
 void square_to_rim(Marks& marks, const TracedAxis& axis) {
     constexpr double most = 24.0;
-    const std::vector<glm::dvec2> line = CapLine(marks.sides).points;
-    glm::dvec2 middle(0.0);
-    for (const glm::dvec2& point : line) middle += point / static_cast<double>(line.size());
+    const CapLine cap(marks.sides);
+    const std::vector<glm::dvec2>& line = cap.points;
+    const glm::dvec2 middle = middle_of(cap);
     double across = 0.0, both = 0.0, along = 0.0;
     const CapFrame straight(axis, marks.stem_top, 0.0);
     for (const glm::dvec2& point : line) {
@@ -460,6 +491,41 @@ Marks marks_of(const Contour& contour, const TracedAxis& axis, double height, Fo
     else
         marks.cap_turn_deg = turn_of_cap(marks, axis, height).deg;
     move_apex(marks, axis);
+    return marks;
+}
+
+Marks marks_at(std::array<ContourSide, 2> sides, const TracedAxis& axis, double height, Form form,
+               std::optional<double> cap_turn_deg) {
+    Marks marks;
+    marks.form = form;
+    marks.sides = std::move(sides);
+    marks.has_corner = form == Form::capped || form == Form::morel;
+    for (std::size_t k = 0; k < 2; ++k) {
+        ContourSide& side = marks.sides[k];
+        const double sign = k == 0 ? -1.0 : 1.0;
+        side.local.clear();
+        side.local.reserve(side.points.size());
+        for (const glm::dvec2& point : side.points) {
+            const glm::dvec2 at = axis.local(point);
+            side.local.emplace_back(sign * at.x, at.y);
+        }
+        double widest = 0.0;
+        for (std::size_t i = side.junction; i < side.local.size(); ++i)
+            widest = std::max(widest, side.local[i].x);
+        marks.has_corner =
+            marks.has_corner && side.local[side.junction].x < most_of_margin * widest &&
+            turn_between(side.points, sign, side.junction, 0.5 * window * height) < -corner_deg;
+    }
+    const auto &left = marks.sides[0], &right = marks.sides[1];
+    marks.stem_top =
+        std::max(0.5 * (left.local[left.junction].y + right.local[right.junction].y), 0.0);
+    if (form == Form::cup) {
+        // All of it stands as its edge does.
+        marks.rim = CapFrame(axis, marks.stem_top, 0.0).local(middle_of(CapLine(marks.sides))).y;
+        marks.cap_turn_deg = cap_turn_deg.value_or(0.0);
+    } else {
+        marks.cap_turn_deg = cap_turn_deg ? *cap_turn_deg : turn_of_cap(marks, axis, height).deg;
+    }
     return marks;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/trace/axis.h"
@@ -64,5 +65,12 @@ struct CapFrame {
 /// throws   InvalidInput (path "/form") if no cap stands out from the stem, or there is no stem
 [[nodiscard]] Marks marks_of(const Contour& contour, const TracedAxis& axis, double height,
                              Form form);
+
+/// Returns the marks of a mushroom on whose sides junction and margin are known.
+///
+/// sides         with points from the foot to the apex, and the indices of both marks
+/// cap_turn_deg  none: that at which both halves of the cap are most alike
+[[nodiscard]] Marks marks_at(std::array<ContourSide, 2> sides, const TracedAxis& axis,
+                             double height, Form form, std::optional<double> cap_turn_deg);
 
 }  // namespace sporeprint::trace

@@ -82,13 +82,19 @@ std::size_t flood(const Mask& mask, bool value, std::vector<std::array<int, 2>> 
 
 }  // namespace
 
-Picture reduced(const Picture& photo, int side) {
-    const int longest = std::max(photo.width, photo.height);
-    if (longest <= side) return photo;
+PictureSize reduced_size(int width, int height, int side) {
+    const int longest = std::max(width, height);
+    if (longest <= side) return {width, height};
     const auto scaled = [&](int length) {
         return std::max(1, (2 * length * side + longest) / (2 * longest));
     };
-    Picture copy{scaled(photo.width), scaled(photo.height), {}};
+    return {scaled(width), scaled(height)};
+}
+
+Picture reduced(const Picture& photo, int side) {
+    if (std::max(photo.width, photo.height) <= side) return photo;
+    const PictureSize size = reduced_size(photo.width, photo.height, side);
+    Picture copy{size.width, size.height, {}};
     const std::vector<Cover> columns = covers(photo.width, copy.width),
                              rows = covers(photo.height, copy.height);
     copy.rgb.reserve(3 * columns.size() * rows.size());

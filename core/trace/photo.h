@@ -13,6 +13,17 @@ namespace sporeprint::trace {
 /// one.
 inline constexpr int small_side = 320, large_side = 1024;
 
+/// A size of a picture, pixels.
+struct PictureSize {
+    int width = 0, height = 0;
+};
+
+/// Returns the size of a copy of the shape of the original whose long side is at most a given one: that of the
+/// original if it is no longer.
+///
+/// side  at least 1
+[[nodiscard]] PictureSize reduced_size(int width, int height, int side);
+
 /// Returns a copy by the mean of the area that each of its pixels covers, of the shape of the original; the
 /// original if its long side is no longer.
 ///

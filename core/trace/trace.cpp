@@ -203,38 +203,26 @@ FittedProfile fitted_profile(const Contour& contour, const TracedAxis& axis, con
     }
 }
 
-}  // namespace
-
-Traced on_copy(Traced traced, double factor) {
-    const auto scale = [factor](glm::dvec2& point) { point *= factor; };
-    for (std::vector<glm::dvec2>* line : {&traced.left, &traced.right, &traced.axis})
-        std::for_each(line->begin(), line->end(), scale);
-    std::for_each(traced.junctions.begin(), traced.junctions.end(), scale);
-    std::for_each(traced.margins.begin(), traced.margins.end(), scale);
-    return traced;
-}
-
-Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& params) {
-    require_valid(params);
-    const Extent extent = extent_of(mask);
-    require_whole(mask, extent);
-    require_plain_border(mask, extent);
-    const double height = extent.bottom - extent.top + 1.0;
-    const auto [contour, axis, marks] = found_in(mask, gesture.axis, height, params.form);
+/// Returns what is measured on an outline.
+///
+/// form  not Form::automatic
+Traced traced_on(const MarkedOutline& outline, Form form, const TraceParams& params) {
+    const auto [contour, axis, marks, height] = measured(outline, form);
     const auto [profile, fitted, has_plain_stem] =
         fitted_profile(contour, axis, marks, height, params);
-
     Traced found;
-    found.form = marks.form;
+    static_cast<MarkedOutline&>(found) = outline;
+    found.cap_turn_deg = marks.cap_turn_deg;
+    found.form = form;
     found.shape.silhouette = fitted.silhouette;
     found.shape.axis = fitted.axis;
     found.error = fitted.error;
     found.asymmetry = profile.asymmetry;
-    const std::vector<AxisPoint> measured = found.shape.axis;
-    found.shape.axis = unfolded(measured, found.shape.silhouette);
+    const std::vector<AxisPoint> measured_axis = found.shape.axis;
+    found.shape.axis = unfolded(measured_axis, found.shape.silhouette);
     if (has_plain_stem)
         found.method = TraceMethod::simplified;
-    else if (found.shape.axis != measured)
+    else if (found.shape.axis != measured_axis)
         found.method = TraceMethod::straightened;
     const std::vector<AxisPoint>& points = found.shape.axis;
     found.lean_deg = angle_of(points.front(), points.back());
@@ -244,15 +232,38 @@ Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& param
     const double scale = params.height_m / height;
     if (profile.ring)
         found.ring = RingMeasure{profile.ring->height * scale, profile.ring->width * scale};
-    found.left = marks.sides[0].points;
-    found.right = marks.sides[1].points;
-    found.axis = axis.points();
-    for (std::size_t k = 0; k < 2; ++k) {
-        const ContourSide& side = marks.sides[k];
-        found.junctions[k] = side.points[side.junction];
-        found.margins[k] = side.points[side.margin];
-    }
     return found;
+}
+
+}  // namespace
+
+Traced on_copy(Traced traced, double factor) {
+    static_cast<MarkedOutline&>(traced) = scaled(std::move(traced), factor);
+    return traced;
+}
+
+FoundOutline outline_on(const Mask& mask, const Gesture& gesture, Form form) {
+    const Extent extent = extent_of(mask);
+    require_whole(mask, extent);
+    require_plain_border(mask, extent);
+    const double height = extent.bottom - extent.top + 1.0;
+    const auto [contour, axis, marks] = found_in(mask, gesture.axis, height, form);
+    return {reported(marks, axis), marks.form};
+}
+
+Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& params) {
+    require_valid(params);
+    return traced(outline_on(mask, gesture, params.form), params);
+}
+
+Traced traced(const FoundOutline& found, const TraceParams& params) {
+    return traced_on(found.outline, found.form, params);
+}
+
+Traced traced(const MarkedOutline& outline, const TraceParams& params) {
+    require_valid(params);
+    require_measurable(outline, params.form);
+    return traced_on(outline, params.form, params);
 }
 
 Traced traced(const Picture& photo, const Gesture& gesture, const TraceParams& params) {

@@ -1,16 +1,13 @@
 // From a photograph and a gesture to the shape of a model.
 #pragma once
 
-#include <array>
-#include <glm/vec2.hpp>
 #include <optional>
-#include <vector>
 
 #include "core/model/swept.h"
 #include "core/params/describe.h"
-#include "core/trace/contour.h"
 #include "core/trace/form.h"
 #include "core/trace/gesture.h"
+#include "core/trace/marked_outline.h"
 #include "core/trace/photo.h"
 
 namespace sporeprint::trace {
@@ -69,8 +66,9 @@ struct RingMeasure {
     double width_m = 0.0;   ///< how far it stands out from the stem
 };
 
-/// A mushroom as it was traced.
-struct Traced {
+/// A mushroom as it was traced. On the photograph, in its pixels, it is the marked outline that all else was
+/// measured on.
+struct Traced : MarkedOutline {
     Swept shape;               ///< an outline and an axis; all else is zero
     Form form = Form::capped;  ///< the one that was traced, never Form::automatic
     TraceMethod method = TraceMethod::fitted;
@@ -79,10 +77,6 @@ struct Traced {
     double lean_deg = 0.0;   ///< of the line from the foot to the top of the stem, to the right
     double bend_deg = 0.0;   ///< between the directions of the axis at the foot and at the cap
     std::optional<RingMeasure> ring;
-    /// On the photograph, in its pixels: both sides from the foot to the apex, and the axis.
-    std::vector<glm::dvec2> left, right, axis;
-    /// Where stem and lower face meet, and the margin: on the left and on the right.
-    std::array<glm::dvec2, 2> junctions{}, margins{};
 };
 
 /// Returns a trace in pixels of another copy of the photograph.
@@ -103,5 +97,33 @@ struct Traced {
 ///
 /// gesture  in pixels of the mask
 [[nodiscard]] Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& params);
+
+/// An outline as it was found, and the form that it was taken for.
+struct FoundOutline {
+    MarkedOutline outline;
+    Form form = Form::capped;  ///< never Form::automatic
+};
+
+/// Returns the outline of a mask with its marks, as the trace above measures it.
+///
+/// throws    as above, but not Impossible
+/// cost      about 20 ms
+[[nodiscard]] FoundOutline outline_on(const Mask& mask, const Gesture& gesture, Form form);
+
+/// Traces an outline that was found.
+///
+/// params    whose form does not count
+/// throws    Impossible as above
+/// cost      about 10 ms
+[[nodiscard]] Traced traced(const FoundOutline& found, const TraceParams& params);
+
+/// Traces an outline whose marks are known: those of another trace, or as a person has moved them. A trace of
+/// the outline that a trace has gives the same shape.
+///
+/// params   its form is not Form::automatic
+/// throws   InvalidInput (paths below "/outline" and "/marks", or "/hollow", "/height_m") if the outline or its
+///          marks cannot be measured, or the mushroom is smaller than 120 pixels; Impossible as above
+/// cost     about 10 ms
+[[nodiscard]] Traced traced(const MarkedOutline& outline, const TraceParams& params);
 
 }  // namespace sporeprint::trace

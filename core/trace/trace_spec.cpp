@@ -29,4 +29,15 @@ Gesture gesture_of(const GestureSpec& spec) {
     return gesture;
 }
 
+std::optional<MarkedOutline> marked_outline_of(const TraceSpec& spec) {
+    if (!spec.outline || !spec.marks) return std::nullopt;
+    const auto pair_of = [](const std::vector<PhotoPoint>& places) {
+        return std::array<glm::dvec2, 2>{glm::dvec2(places[0][0], places[0][1]),
+                                         glm::dvec2(places[1][0], places[1][1])};
+    };
+    return MarkedOutline{stroke_of(spec.outline->left), stroke_of(spec.outline->right),
+                         stroke_of(spec.outline->axis), pair_of(spec.marks->junctions),
+                         pair_of(spec.marks->margins),  spec.marks->cap_turn_deg};
+}
+
 }  // namespace sporeprint::trace

@@ -100,9 +100,77 @@ struct ViewsSpec {
     bool operator==(const ViewsSpec&) const = default;
 };
 
+/// An outline on a photograph, in pixels of the stored photograph.
+struct OutlineLinesSpec {
+    std::vector<PhotoPoint> left, right, axis;
+
+    static constexpr void fields(auto visit) {
+        using O = OutlineLinesSpec;
+        visit(&O::left, Info{.name = "left",
+                             .unit = "px",
+                             .max = 2048,
+                             .most = MarkedOutline::most_points,
+                             .doc = "The left side from the foot to the apex."});
+        visit(&O::right, Info{.name = "right",
+                              .unit = "px",
+                              .max = 2048,
+                              .most = MarkedOutline::most_points,
+                              .doc = "The right side from the foot to the apex."});
+        visit(&O::axis, Info{.name = "axis",
+                             .unit = "px",
+                             .max = 2048,
+                             .most = MarkedOutline::most_points,
+                             .doc = "The curve through the middle of the stem, from the foot "
+                                    "upwards."});
+    }
+    bool operator==(const OutlineLinesSpec&) const = default;
+};
+
+/// The marks on an outline.
+struct MarksSpec {
+    std::vector<PhotoPoint> junctions, margins;
+    std::optional<double> cap_turn_deg;
+
+    static constexpr void fields(auto visit) {
+        visit(&MarksSpec::junctions,
+              Info{.name = "junctions",
+                   .unit = "px",
+                   .max = 2048,
+                   .most = 2,
+                   .doc = "Where stem and lower face meet, or stem and head: left and right."});
+        visit(&MarksSpec::margins,
+              Info{.name = "margins",
+                   .unit = "px",
+                   .max = 2048,
+                   .most = 2,
+                   .doc = "The margin of the cap, or the edge of a funnel or cup: left and right. "
+                          "A morel, club or puffball has none; its junctions count."});
+        visit(&MarksSpec::cap_turn_deg,
+              Info{.name = "cap_turn_deg",
+                   .unit = "deg",
+                   .min = -45,
+                   .max = 45,
+                   .doc = "How the cap stands against the top of the stem, to the right where "
+                          "positive; without it so that its halves are most alike."});
+    }
+    /// Reports marks that are not two.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        const auto require_two = [&](const std::vector<PhotoPoint>& places, const char* name) {
+            if (places.size() != 2)
+                report(problems, path + "/" + name,
+                       std::to_string(places.size()) + " places; two are needed, left and right");
+        };
+        require_two(junctions, "junctions");
+        require_two(margins, "margins");
+    }
+    bool operator==(const MarksSpec&) const = default;
+};
+
 /// A trace.
 struct TraceSpec {
     ViewsSpec views;
+    std::optional<OutlineLinesSpec> outline;
+    std::optional<MarksSpec> marks;
     Text<48> template_id{"auto"};
     Text<48> id{"my_mushroom"};
     Form form = Form::automatic;
@@ -113,6 +181,14 @@ struct TraceSpec {
     static constexpr void fields(auto visit) {
         using T = TraceSpec;
         visit(&T::views, Info{.name = "views", .doc = "Photographs of the mushroom."});
+        visit(&T::outline,
+              Info{.name = "outline",
+                   .doc = "The outline to be measured, as a trace gives it or as a person has "
+                          "changed it. Then nothing is cut out, and the gesture does not count."});
+        visit(&T::marks,
+              Info{.name = "marks",
+                   .doc = "The marks on this outline, as a trace gives them or as a person has "
+                          "moved them. The form must be stated too."});
         visit(&T::template_id,
               Info{.name = "template",
                    .most = 48,
@@ -145,6 +221,14 @@ struct TraceSpec {
     /// Reports a missing photograph, and ids that no species can have.
     void check(const std::string& path, std::vector<Problem>& problems) const {
         if (views.side.photo.empty()) report(problems, path + "/views/side/photo", "is missing");
+        if (outline && !marks)
+            report(problems, path + "/marks", "is missing; an outline is measured by its marks");
+        if (marks && !outline)
+            report(problems, path + "/outline", "is missing; marks are on an outline");
+        if (marks && form == Form::automatic)
+            report(problems, path + "/form",
+                   "auto is for photographs; with marks state the form that the trace gave: "
+                   "capped, funnel, morel, club, puffball or cup");
         if (const std::string said = invalid_id_message(id); !said.empty())
             report(problems, path + "/id", said);
         if (const std::string said = invalid_id_message(template_id); !said.empty())
@@ -155,5 +239,8 @@ struct TraceSpec {
 
 /// Returns a gesture as it is traced.
 [[nodiscard]] Gesture gesture_of(const GestureSpec& spec);
+
+/// Returns an outline with marks as it is measured; none if there is none.
+[[nodiscard]] std::optional<MarkedOutline> marked_outline_of(const TraceSpec& spec);
 
 }  // namespace sporeprint::trace

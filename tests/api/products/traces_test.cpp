@@ -118,6 +118,71 @@ TEST_F(TraceRoutes, OfAPictureThatIsCutOutNeedNoGesture) {
     EXPECT_TRUE(names(missing, "/views/side/gesture", "is missing"));
 }
 
+/// Returns an order with the outline, the marks and the form of a response, without a gesture.
+std::string marked_order(const std::string& photo, const Value& found, const Value& marks) {
+    Value side = Value::object(), views = Value::object(), body = Value::object();
+    side.set("photo", photo);
+    views.set("side", std::move(side));
+    body.set("views", std::move(views));
+    for (const char* member : {"outline", "form", "template"})
+        body.set(member, *found.find(member));
+    body.set("marks", marks);
+    return dump(body);
+}
+
+TEST_F(TraceRoutes, OfTheOutlineAndMarksOfAResponseHaveItsShape) {
+    for (const bool is_cut_out : {false, true}) {
+        const std::string photo = uploaded(is_cut_out);
+        const Response first = trace(order(photo, !is_cut_out));
+        ASSERT_EQ(first.status, 200) << text_of(first);
+        const Value found = json_of(first), marks = *found.find("marks");
+        const Response again = trace(marked_order(photo, found, marks));
+        ASSERT_EQ(again.status, 200) << text_of(again);
+        const Value same = json_of(again);
+        for (const char* member : {"outline", "marks", "angles", "error_pct", "method", "stage"})
+            EXPECT_EQ(dump(*same.find(member)), dump(*found.find(member))) << member;
+        const std::string shape =
+            "/species/stages/" + dump(*found.find("stage")) + "/model/silhouette";
+        EXPECT_EQ(dump(*same.at_pointer(shape)), dump(*found.at_pointer(shape)));
+        // A photograph that was not cut yet gives the same.
+        const std::string other = uploaded(is_cut_out);
+        EXPECT_EQ(text_of(trace(marked_order(other, found, marks))), text_of(again));
+    }
+}
+
+TEST_F(TraceRoutes, FollowMarksThatAreMovedAndNameThoseThatCannotBe) {
+    const std::string photo = uploaded(false);
+    const Value found = json_of(trace(order(photo)));
+    const auto with_margin = [&](double x, double y) {
+        Value margins = Value::array();
+        margins.push(Value(Value::Array{x, y}));
+        margins.push(found.at_pointer("/marks/margins")->items()[1]);
+        Value marks = Value::object();
+        marks.set("junctions", *found.at_pointer("/marks/junctions"));
+        marks.set("margins", std::move(margins));
+        return trace(marked_order(photo, found, marks));
+    };
+    // The left margin a good way up the cap.
+    const Value& left = *found.at_pointer("/outline/left");
+    const Value& place = left.items()[left.items().size() - 12];
+    const Response moved = with_margin(place.items()[0].as_number(), place.items()[1].as_number());
+    ASSERT_EQ(moved.status, 200) << text_of(moved);
+    EXPECT_EQ(dump(*json_of(moved).at_pointer("/marks/margins/0")), dump(place));
+    const std::string shape = "/species/stages/" + dump(*found.find("stage")) + "/model/silhouette";
+    EXPECT_NE(dump(*json_of(moved).at_pointer(shape)), dump(*found.at_pointer(shape)));
+
+    const Value& apex = left.items().back();
+    const Response above = with_margin(apex.items()[0].as_number(), 2.0);
+    expect_problem(above, 422);
+    EXPECT_TRUE(names(above, "/marks/margins/0", "above the apex"));
+    const Response outside = with_margin(10.0, 900.0);
+    expect_problem(outside, 422);
+    EXPECT_TRUE(names(outside, "/marks/margins/0", "400 x 400"));
+    const Response without = trace(order(photo, true, R"(,"marks":{"junctions":[],"margins":[]})"));
+    expect_problem(without, 400);
+    EXPECT_TRUE(names(without, "/marks/junctions", "two are needed"));
+}
+
 TEST_F(TraceRoutes, NameWhatIsWrong) {
     const std::string photo = uploaded(false);
     const Response gone = trace(order("AAAAAAAAAAAAAAAAAAAAAA"));

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <span>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/params/reader.h"
 #include "core/params/value.h"
@@ -39,8 +44,8 @@ trace::TraceSpec spec_of(const trace::Gesture& gesture) {
 
 SpeciesFromPhoto found_in(const Photograph& photo, const trace::TraceSpec& spec,
                           const std::optional<trace::Mask>& cut_out) {
-    return species_from_photo(photo.picture, mushroom_on(photo.picture, cut_out, spec), spec,
-                              *small_atlas(), nearest());
+    return species_from_photo(mushroom_on(photo.picture, cut_out, spec), spec, *small_atlas(),
+                              nearest());
 }
 
 double height_of(const Stage& stage) {
@@ -138,6 +143,94 @@ TEST(SpeciesFromPhoto, OfAPictureThatIsCutOutNeedsNoGesture) {
     EXPECT_TRUE(
         names(refusal([&] { static_cast<void>(mushroom_on(bolete().picture, truth, spec)); }),
               "/views/side/gesture/cap", "cut out already"));
+}
+
+/// Returns a specification with the outline and the marks of a trace, and without a gesture.
+trace::TraceSpec spec_with_marks(const SpeciesFromPhoto& found) {
+    const auto points = [](std::span<const glm::dvec2> line) {
+        std::vector<trace::PhotoPoint> list;
+        for (const glm::dvec2& at : line)
+            list.push_back({std::round(at.x * 100.0) / 100.0, std::round(at.y * 100.0) / 100.0});
+        return list;
+    };
+    const trace::Traced& traced = found.traced;
+    trace::TraceSpec spec;
+    spec.outline = {points(traced.left), points(traced.right), points(traced.axis)};
+    spec.marks = {points(traced.junctions), points(traced.margins), traced.cap_turn_deg};
+    spec.form = traced.form;
+    spec.template_id = Text<48>(std::string_view(found.template_id));
+    return spec;
+}
+
+/// Returns a square photograph in another size, by the nearest pixels.
+Photograph enlarged(const Photograph& photo, int side) {
+    Photograph large{{side, side, {}}, trace::resized(photo.truth, side, side), {}};
+    large.picture.rgb.reserve(3 * large.truth.inside.size());
+    const auto nearest_pixel = [&](int i) { return i * photo.picture.width / side; };
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const std::uint8_t* pixel =
+                &photo.picture.rgb[3 * photo.truth.index(nearest_pixel(x), nearest_pixel(y))];
+            large.picture.rgb.insert(large.picture.rgb.end(), pixel, pixel + 3);
+        }
+    large.gesture = photo.gesture.scaled(static_cast<double>(side) / photo.picture.width);
+    return large;
+}
+
+TEST(SpeciesFromPhoto, OfItsOwnOutlineAndMarksHasTheSameShape) {
+    // A working copy smaller than the photograph, by a factor that is no fraction of two.
+    const Photograph large = enlarged(bolete(), 1400);
+    for (const Photograph* photo : {&bolete(), &large}) {
+        const SpeciesFromPhoto first = found_in(*photo, spec_of(photo->gesture), std::nullopt);
+        const SpeciesFromPhoto again = found_in(*photo, spec_with_marks(first), std::nullopt);
+        EXPECT_EQ(again.traced.shape.silhouette, first.traced.shape.silhouette);
+        EXPECT_EQ(again.traced.shape.axis, first.traced.shape.axis);
+        EXPECT_EQ(again.whole.stage, first.whole.stage);
+        EXPECT_EQ(again.template_id, first.template_id);
+        for (std::size_t i = 0; i < first.whole.species.stages.size(); ++i)
+            EXPECT_EQ(again.whole.species.stages[i].model.shape,
+                      first.whole.species.stages[i].model.shape);
+        EXPECT_LT(glm::length(again.traced.margins[0] - first.traced.margins[0]), 0.02);
+    }
+}
+
+TEST(SpeciesFromPhoto, OfAHollowFormWithMarksHasTheSameShape) {
+    const Photograph photo =
+        photograph({"cantharellus_cibarius", 0.7, 7, View::front, 640}, Scenery::plain);
+    trace::TraceSpec spec;
+    spec.hollow = 0.4;
+    const SpeciesFromPhoto first = found_in(photo, spec, photo.truth);
+    ASSERT_TRUE(trace::is_hollow(first.traced.form)) << trace::name(first.traced.form);
+    trace::TraceSpec marked = spec_with_marks(first);
+    marked.hollow = 0.4;
+    const SpeciesFromPhoto again = found_in(photo, marked, photo.truth);
+    EXPECT_EQ(again.traced.shape.silhouette, first.traced.shape.silhouette);
+}
+
+TEST(SpeciesFromPhoto, NamesWhatIsWrongWithAnOutlineInTheWordsOfTheRequest) {
+    static const SpeciesFromPhoto first =
+        found_in(bolete(), spec_of(bolete().gesture), std::nullopt);
+    const auto refused = [&](auto change) {
+        trace::TraceSpec spec = spec_with_marks(first);
+        change(spec);
+        return refusal([&] { static_cast<void>(found_in(bolete(), spec, std::nullopt)); });
+    };
+    EXPECT_TRUE(refused([](trace::TraceSpec&) {}).empty());
+    EXPECT_TRUE(names(refused([](trace::TraceSpec& spec) {
+                          spec.outline->left[9] = {700, 30};
+                      }),
+                      "/outline/left/9", "512 x 512"));
+    EXPECT_TRUE(names(refused([](trace::TraceSpec& spec) {
+                          spec.marks->margins[1] = {3, 900};
+                      }),
+                      "/marks/margins/1", "512 x 512"));
+    EXPECT_TRUE(names(refused([](trace::TraceSpec& spec) {
+                          spec.marks->margins[0] = {spec.outline->left.back()[0], 1.0};
+                      }),
+                      "/marks/margins/0", "above the apex"));
+    EXPECT_TRUE(names(
+        refused([](trace::TraceSpec& spec) { std::swap(spec.outline->left, spec.outline->right); }),
+        "/outline/left", "exchange them"));
 }
 
 TEST(SpeciesFromPhoto, NamesWhatCanNotBeTracedInTheWordsOfTheRequest) {

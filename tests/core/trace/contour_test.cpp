@@ -68,6 +68,30 @@ RC_GTEST_PROP(Contour, WalksAlongTheWholeBorderOfAPart, ()) {
     RC_ASSERT(trace::contour_of(part, 0.0).size() == edges);
 }
 
+TEST(InsideOf, AContourAreThePixelsWhoseMiddlesItHasRoundThem) {
+    const Contour triangle = {{1.0, 1.0}, {9.0, 1.0}, {1.0, 9.0}};
+    const trace::Mask mask = trace::inside_of(triangle, {12, 10});
+    EXPECT_EQ(mask.width, 12);
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 12; ++x)
+            EXPECT_EQ(mask.at(x, y), x >= 1 && y >= 1 && x + y + 1 < 10) << x << ' ' << y;
+    // What is beyond the picture is left out.
+    const Contour large = {{-50.0, -50.0}, {90.0, -50.0}, {90.0, 90.0}, {-50.0, 90.0}};
+    EXPECT_EQ(trace::inside_of(large, {12, 10}).area(), 120U);
+    EXPECT_EQ(trace::inside_of({}, {12, 10}).area(), 0U);
+}
+
+RC_GTEST_PROP(InsideOf, TheContourOfAMaskIsTheMask, ()) {
+    trace::Mask mask(20, 20);
+    mask.inside[mask.index(10, 10)] = 1;
+    for (int i = 0; i < 60; ++i) {
+        const int x = *rc::gen::inRange(2, 18), y = *rc::gen::inRange(2, 18);
+        mask.inside[mask.index(x, y)] = 1;
+    }
+    const trace::Mask part = trace::without_holes(trace::largest_part(mask));
+    RC_ASSERT(trace::inside_of(trace::contour_of(part, 0.0), {20, 20}) == part);
+}
+
 TEST(ArcLengths, AddUpAlongALine) {
     EXPECT_EQ(trace::arc_lengths({{0.0, 0.0}, {3.0, 4.0}, {3.0, 4.0}, {3.0, 6.0}}),
               (std::vector<double>{0.0, 5.0, 5.0, 7.0}));

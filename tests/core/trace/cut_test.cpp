@@ -129,5 +129,33 @@ TEST(Cut, RefusesAnAxisThatIsNotOnThePhotograph) {
     EXPECT_TRUE(names(refused({{50.0, 60.0}, {50.0, -1.0}}), "/gesture/axis/1", "100 x 100"));
 }
 
+TEST(Cut, RefusesEveryStrokeThatIsNotOnThePhotograph) {
+    const auto refused = [](const auto& change) {
+        trace::Gesture gesture{{{50.0, 60.0}, {50.0, 40.0}}, {}, {}, {}, {}};
+        change(gesture);
+        return refusal([&] { static_cast<void>(trace::cut_out(disc(100), gesture)); });
+    };
+    using Drawn = trace::Gesture;
+    EXPECT_TRUE(names(refused([](Drawn& one) {
+                          one.cap = {{5.0, 5.0}, {101.0, 5.0}};
+                      }),
+                      "/gesture/cap/1", "is not on the photograph of 100 x 100 pixels"));
+    EXPECT_TRUE(names(refused([](Drawn& one) {
+                          one.keep = {{{5.0, 5.0}}, {{5.0, 300.0}}};
+                      }),
+                      "/gesture/keep/1/0", "100 x 100"));
+    EXPECT_TRUE(names(refused([](Drawn& one) {
+                          one.drop = {{{200.0, 5.0}}};
+                      }),
+                      "/gesture/drop/0/0", "100 x 100"));
+    EXPECT_TRUE(names(refused([](Drawn& one) {
+                          one.frame = trace::PhotoFrame{{120.0, 10.0}, {150.0, 50.0}};
+                      }),
+                      "/gesture/frame", "100 x 100"));
+    EXPECT_TRUE(refused([](Drawn& one) {
+                    one.frame = trace::PhotoFrame{{2.0, 2.0}, {150.0, 99.0}};
+                }).empty());
+}
+
 }  // namespace
 }  // namespace sporeprint::trace_cut_test

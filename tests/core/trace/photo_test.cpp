@@ -58,6 +58,15 @@ TEST(Reduced, LeavesASmallPhotographAsItIs) {
     EXPECT_EQ(trace::reduced(photo, 1).rgb, (Bytes{3, 4, 5}));
 }
 
+TEST(ReducedSize, HasTheShapeOfTheOriginal) {
+    const auto is = [](const trace::PictureSize& size, int width, int height) {
+        return size.width == width && size.height == height;
+    };
+    EXPECT_TRUE(is(trace::reduced_size(2048, 1365, 1024), 1024, 683));
+    EXPECT_TRUE(is(trace::reduced_size(800, 1000, 1024), 800, 1000));
+    EXPECT_TRUE(is(trace::reduced_size(1, 4000, 100), 1, 100));
+}
+
 TEST(Masks, ConnectByEdgesNotByCorners) {
     const Mask mask = mask_of({"##..", "..##", "#..."});
     EXPECT_EQ(trace::connected_with(mask, mask_of({"#...", "....", "...."})),

@@ -50,6 +50,51 @@ TEST(Traced, MarksThePhotographInItsOwnPixels) {
     }
 }
 
+/// Returns the forms that are not capped.
+std::vector<trace::Form> other_forms() {
+    return {trace::Form::funnel, trace::Form::morel, trace::Form::club, trace::Form::puffball,
+            trace::Form::cup};
+}
+
+TEST(Traced, OfItsOwnOutlineIsTheSame) {
+    std::vector<trace::FoundOutline> found;
+    DrawnMushroom capped;
+    capped.bend_deg = 9.0;
+    found.push_back(trace::outline_on(capped.mask(), capped.gesture(), trace::Form::automatic));
+    for (const trace::Form form : other_forms()) {
+        DrawnForm drawn = drawn_form(form);
+        if (form == trace::Form::cup) drawn.pixels = 450.0;
+        found.push_back(trace::outline_on(drawn.mask(), drawn.gesture(), form));
+    }
+    for (const trace::FoundOutline& one : found) {
+        const trace::Traced first = trace::traced(one, {0.1, one.form, 0.5});
+        const trace::Traced again =
+            trace::traced(static_cast<const trace::MarkedOutline&>(first), {0.1, one.form, 0.5});
+        EXPECT_EQ(again.shape.silhouette, first.shape.silhouette) << trace::name(one.form);
+        EXPECT_EQ(again.shape.axis, first.shape.axis) << trace::name(one.form);
+        EXPECT_EQ(again.method, first.method);
+        EXPECT_EQ(again.error, first.error);
+    }
+}
+
+TEST(Traced, FollowsAMarkThatIsMoved) {
+    const DrawnMushroom drawn;
+    trace::MarkedOutline outline =
+        trace::outline_on(drawn.mask(), drawn.gesture(), trace::Form::capped).outline;
+    const double before =
+        trace::traced(outline, {0.1, trace::Form::capped}).shape.silhouette.stem.back().y;
+    // Both junctions a twentieth of the height down the stem.
+    for (glm::dvec2& junction : outline.junctions) junction.y += 0.05 * drawn.pixels;
+    const Silhouette moved = trace::traced(outline, {0.1, trace::Form::capped}).shape.silhouette;
+    EXPECT_NEAR(moved.stem.back().y, before - 0.005, 0.0005);
+    EXPECT_EQ(moved.junction, Join::smooth);
+    outline.junctions[0].x -= 0.2 * drawn.pixels;
+    EXPECT_TRUE(names(refusal([&] {
+                          static_cast<void>(trace::traced(outline, {0.1, trace::Form::capped}));
+                      }),
+                      "/marks/junctions/0", "pixels away"));
+}
+
 TEST(Traced, BendsAStemLessThatWouldFold) {
     DrawnMushroom drawn;
     drawn.pixels = 500.0;
@@ -72,12 +117,6 @@ TEST(Traced, RefusesWhatIsTooSmallOrCutOff) {
     drawn.pixels = 700.0;
     drawn.lean_deg = 60.0;
     EXPECT_TRUE(names(problems_of(), "/photo", "cut off by the right border"));
-}
-
-/// Returns the forms that are not capped.
-std::vector<trace::Form> other_forms() {
-    return {trace::Form::funnel, trace::Form::morel, trace::Form::club, trace::Form::puffball,
-            trace::Form::cup};
 }
 
 /// Returns how high a drawn mushroom is on its picture, in its own units.
