@@ -284,9 +284,12 @@ void add_schemas(Value& schemas, const Atlas&) {
                                     "The species that lends what the photograph does not "
                                     "show.")},
              {"form", described(text, "capped, funnel, morel, club, puffball or cup.")},
-             {"method", described(text,
-                                  "fitted; straightened: the stem would fold as it is bent on the "
-                                  "photograph; simplified: the outline would cross itself.")},
+             {"method",
+              described(text,
+                        "fitted; straightened: the stem would fold as it is bent on the "
+                        "photograph; simplified: the outline would cross itself; template: neither "
+                        "can be grown, so it is the template's, stretched to the same "
+                        "heights and widths.")},
              {"certificate", reference("schemas/certificate")},
              {"likeness",
               described(

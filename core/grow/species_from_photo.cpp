@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "core/params/messages.h"
 #include "core/problems.h"
@@ -100,36 +101,38 @@ trace::MarkedOutline outline_on_copy(const trace::TraceSpec& spec, double factor
     return trace::rounded(trace::scaled(*trace::marked_outline_of(spec), factor));
 }
 
-/// What was found on a mask or given, and its trace.
+/// What was found on a mask or given, and its trace; none if it cannot be grown as it was found.
 struct Trace {
     trace::FoundOutline found;
-    trace::Traced traced;
+    std::optional<trace::Traced> traced;
 };
 
-Trace traced_as(trace::FoundOutline found, const trace::TraceParams& params) {
-    trace::Traced traced = trace::traced(found, params);
-    return {std::move(found), std::move(traced)};
+Trace tried(trace::FoundOutline found, const trace::TraceParams& params) {
+    try {
+        trace::Traced traced = trace::traced(found, params);
+        return {std::move(found), std::move(traced)};
+    } catch (const Impossible&) {
+        return {std::move(found), std::nullopt};
+    }
 }
 
 /// Traces what is on a mask: by the stated form or the one that fits the outline, or if that cannot be grown by the
 /// first that can.
 Trace traced_by_any_form(const trace::Mask& mask, const trace::Gesture& gesture,
                          const trace::TraceParams& params) {
-    try {
-        return traced_as(trace::outline_on(mask, gesture, params.form), params);
-    } catch (const Impossible&) {
-        if (params.form != trace::Form::automatic) throw;
-        using trace::Form;
-        for (const Form form :
-             {Form::cup, Form::puffball, Form::funnel, Form::capped, Form::club, Form::morel}) {
-            try {
-                return traced_as(trace::outline_on(mask, gesture, form), params);
-            } catch (const InvalidInput&) {
-                continue;
-            }
+    Trace first = tried(trace::outline_on(mask, gesture, params.form), params);
+    if (first.traced || params.form != trace::Form::automatic) return first;
+    using trace::Form;
+    for (const Form form :
+         {Form::cup, Form::puffball, Form::funnel, Form::capped, Form::club, Form::morel}) {
+        try {
+            Trace other = tried(trace::outline_on(mask, gesture, form), params);
+            if (other.traced) return other;
+        } catch (const InvalidInput&) {
+            continue;
         }
-        throw;
     }
+    return first;
 }
 
 /// Returns a trace of another height.
@@ -169,6 +172,31 @@ NearSpecies named_template(std::string_view id, const std::vector<NearSpecies>& 
     return *found;
 }
 
+/// A trace and the species that has its shape.
+struct Grown {
+    trace::Traced traced;
+    trace::WholeSpecies whole;
+};
+
+/// Returns the template with the heights and widths of what was found, as far as it grows with them at all ages.
+Grown stretched(const trace::FoundOutline& found, const trace::TraceParams& params,
+                const Species& lender, double age) {
+    trace::require_template(lender, trace::has_face(found.form));
+    const auto stretched_by = [&](double share) {
+        return trace::stretched(found, params, trace::silhouette_at(lender, age), share);
+    };
+    for (double share = 1.0; share > 0.2; share *= 0.5) {
+        trace::Traced traced = stretched_by(share);
+        trace::WholeSpecies whole = trace::whole_species(lender, traced.shape, age);
+        if (whole.certificate.simple) return {std::move(traced), std::move(whole)};
+    }
+    Grown last{stretched_by(0.0), {}};
+    last.whole = trace::sized_species(lender, last.traced.shape.axis, params.height_m, age);
+    last.traced.shape.silhouette =
+        std::get<Swept>(last.whole.species.stages[last.whole.stage].model.shape).silhouette;
+    return last;
+}
+
 /// Gives the photographed stage images, and a warning for each part that has none.
 void give_images(SpeciesFromPhoto& found, const trace::PhotoImages& images) {
     constexpr int quality = 88;
@@ -204,6 +232,11 @@ std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
         warnings.push_back({"method",
                             "Its outline would cross itself as it is on the photograph, so "
                             "the species has a plain stem."});
+    if (found.traced.method == trace::TraceMethod::stretched)
+        warnings.push_back({"method",
+                            "Its outline cannot be grown as it is on the photograph, so the "
+                            "species has that of its template, stretched to the same heights and "
+                            "widths."});
     if (found.whole.likeness < 1.0)
         warnings.push_back({"likeness", "Its other ages have " + percent(found.whole.likeness) +
                                             " of its proportions, or their outlines would cross "
@@ -258,33 +291,33 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::Trac
         // Without a template, the form decides what can be one; otherwise the template has one.
         const bool is_any = spec.template_id.view() == "auto";
         std::optional<Trace> first;
-        if (spec.outline) {
-            const trace::FoundOutline given{outline_on_copy(spec, on.factor), spec.form};
-            first = traced_as(given, {});
-        } else if (is_any) {
+        if (spec.outline)
+            first = tried({outline_on_copy(spec, on.factor), spec.form}, {});
+        else if (is_any)
             first = traced_by_any_form(on.mask, gesture, {.form = spec.form});
-        }
         const NearSpecies chosen = is_any ? chosen_template(first->found.form, atlas, found.nearest)
                                           : named_template(spec.template_id, found.nearest);
         found.template_id = chosen.id;
         found.nearest.resize(std::min(found.nearest.size(), most_named));
         const Species& lender = atlas.find(chosen.id)->species;
         trace::TraceParams params = trace::params_like(lender, chosen.age, 0.1);
-        if (first)
-            params.form = first->found.form;
-        else if (spec.form != trace::Form::automatic)
-            params.form = spec.form;
+        if (spec.form != trace::Form::automatic) params.form = spec.form;
+        if (!first) first = Trace{trace::outline_on(on.mask, gesture, params.form), std::nullopt};
+        const trace::Form form = first->found.form;
         if (spec.hollow) params.hollow = *spec.hollow;
-        const bool has_height = trace::can_be_template(lender, trace::has_face(params.form));
+        const bool has_height = trace::can_be_template(lender, trace::has_face(form));
         params.height_m = spec.height_m.value_or(has_height ? trace::height_at(lender, chosen.age)
                                                             : params.height_m);
         // Only the depth of a hollow depends on the template.
-        trace::Traced traced =
-            !first ? trace::traced(on.mask, gesture, params)
-            : trace::is_hollow(first->found.form)
-                ? trace::traced(first->found, params)
-                : resized(first->traced, params.height_m / trace::TraceParams{}.height_m);
-        found.whole = trace::whole_species(lender, traced.shape, chosen.age);
+        std::optional<trace::Traced> as_found =
+            first->traced && !trace::is_hollow(form)
+                ? resized(*first->traced, params.height_m / trace::TraceParams{}.height_m)
+                : tried(first->found, params).traced;
+        Grown grown =
+            as_found ? Grown{*as_found, trace::whole_species(lender, as_found->shape, chosen.age)}
+                     : stretched(first->found, params, lender, chosen.age);
+        trace::Traced& traced = grown.traced;
+        found.whole = std::move(grown.whole);
         trace::give_colours(found.whole.species, found.whole.stage,
                             trace::part_colours(on.picture, on.mask, traced));
         found.whole.species.id = spec.id;

@@ -7,6 +7,7 @@
 #include "core/math/elementary.h"
 #include "core/math/spline.h"
 #include "core/problems.h"
+#include "core/silhouette/morph_set.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint::trace {
@@ -169,7 +170,126 @@ std::vector<AxisPoint> straighter(const std::vector<AxisPoint>& axis, double sha
     return points;
 }
 
+/// Where an outline has its parts, in one unit: distances from the axis and heights.
+struct Landmarks {
+    glm::dvec2 junction, margin, apex;
+};
+
+Landmarks landmarks_of(const Part& stem, const Part& face, const Part& cap) {
+    const auto wider = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; };
+    const auto higher = [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; };
+    return {stem.back(),
+            face.empty() ? *std::max_element(cap.begin(), cap.end(), wider) : face.back(),
+            *std::max_element(cap.begin(), cap.end(), higher)};
+}
+
+Part points_of(const SubCurve& curve) {
+    Part line;
+    if (curve.empty()) return line;
+    constexpr int steps = 160;
+    line.reserve(steps + 1);
+    for (int k = 0; k <= steps; ++k) {
+        const OutlineSample at = curve.at(static_cast<double>(k) / steps);
+        line.emplace_back(at.r, at.y);
+    }
+    return line;
+}
+
+/// A rising map of numbers from 0 on, through nodes.
+class RisingMap {
+  public:
+    /// nodes  pairs of numbers; those that are not in the same order in both, or near another, do not count, but
+    ///        the last one, which is greater than 0
+    /// least  distance of those that count, of the last one
+    explicit RisingMap(std::vector<glm::dvec2> nodes, double least = 0.03) : nodes_{{0.0, 0.0}} {
+        const glm::dvec2 last = nodes.back(), gap = least * last;
+        nodes.pop_back();
+        std::sort(nodes.begin(), nodes.end(),
+                  [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; });
+        for (const glm::dvec2& node : nodes) {
+            const glm::dvec2 below = node - nodes_.back() - gap, above = last - node - gap;
+            if (std::min({below.x, below.y, above.x, above.y}) > 0.0) nodes_.push_back(node);
+        }
+        nodes_.push_back(last);
+    }
+
+    /// Beyond both ends it goes straight on.
+    [[nodiscard]] double at(double from) const {
+        std::size_t i = 0;
+        while (i + 2 < nodes_.size() && nodes_[i + 1].x <= from) ++i;
+        const glm::dvec2 &a = nodes_[i], &b = nodes_[i + 1];
+        return a.y + (b.y - a.y) * (from - a.x) / (b.x - a.x);
+    }
+
+  private:
+    std::vector<glm::dvec2> nodes_;
+};
+
+/// A map of one outline to another: distances from the axis, and heights, to those that rise with them.
+class Stretch {
+  public:
+    Stretch(const Landmarks& from, const Landmarks& to)
+        : size_(to.apex.y / from.apex.y),
+          out_({{from.junction.x, to.junction.x}, {from.margin.x, to.margin.x}}),
+          up_({{from.junction.y, to.junction.y},
+               {from.margin.y, to.margin.y},
+               {from.apex.y, to.apex.y}}) {}
+
+    /// Returns a silhouette that is moved by a share of the map, 0..1; at 0 it is another size of the same one.
+    [[nodiscard]] Silhouette of(const Silhouette& other, double share) const {
+        Silhouette made = other;
+        for (auto* part : {&made.stem, &made.hymenium, &made.cap})
+            for (OutlinePoint& point : *part) {
+                const double r = size_ * point.r, y = size_ * point.y;
+                // The root is under the ground.
+                const double up = point.y > 0.0 ? up_.at(point.y) : y;
+                point = {r + share * (out_.at(point.r) - r), y + share * (up - y)};
+            }
+        return made;
+    }
+
+  private:
+    double size_;
+    RisingMap out_, up_;
+};
+
 }  // namespace
+
+FittedShape stretched_shape(const Silhouette& other, const Profile& profile, const TracedAxis& axis,
+                            const Marks& marks, double height, double height_m, double share) {
+    const double scale = height_m / height;
+    const auto in_metres = [scale](Part part) {
+        for (glm::dvec2& at : part) at *= scale;
+        return part;
+    };
+    const Outline from = Outline::unproven(other, "/template");
+    const Stretch stretch(
+        landmarks_of(points_of(from.stem), points_of(from.hymenium), points_of(from.cap)),
+        landmarks_of(in_metres(profile.stem), in_metres(profile.face), in_metres(profile.cap)));
+    FittedShape found;
+    for (;; share = share > 0.2 ? 0.5 * share : 0.0) {
+        found.silhouette = stretch.of(other, share);
+        try {
+            const Outline outline(found.silhouette, "/silhouette");
+            // The rings of all levels of detail stay apart too.
+            static_cast<void>(MorphSet({{found.silhouette, height_m, 0, 0.6}}));
+            const Part seen(profile.cap.begin(),
+                            profile.cap.begin() + static_cast<std::ptrdiff_t>(profile.seen));
+            found.error = std::max(error_of(profile.stem, outline.stem, scale),
+                                   error_of(seen, outline.cap, scale));
+            if (!profile.face.empty())
+                found.error =
+                    std::max(found.error, error_of(profile.face, outline.hymenium, scale));
+            found.error /= height;
+            break;
+        } catch (const Impossible&) {
+            if (share == 0.0) throw;
+        }
+    }
+    found.axis = axis_points(axis, marks, std::max(-found.silhouette.stem.front().y, 0.0) / scale,
+                             found.silhouette.stem.back().r / scale);
+    return found;
+}
 
 FittedShape fitted_shape(const Profile& profile, const TracedAxis& axis, const Marks& marks,
                          double height, double height_m) {

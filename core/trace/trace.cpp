@@ -203,33 +203,24 @@ FittedProfile fitted_profile(const Contour& contour, const TracedAxis& axis, con
     }
 }
 
-/// Returns what is measured on an outline.
-///
-/// form  not Form::automatic
-Traced traced_on(const MarkedOutline& outline, Form form, const TraceParams& params) {
-    const auto [contour, axis, marks, height] = measured(outline, form);
-    const auto [profile, fitted, has_plain_stem] =
-        fitted_profile(contour, axis, marks, height, params);
+/// Returns a trace with a shape that was found on an outline.
+Traced with_shape(const FoundOutline& found_outline, const MeasuredOutline& on,
+                  const Profile& profile, const FittedShape& fitted, const TraceParams& params) {
     Traced found;
-    static_cast<MarkedOutline&>(found) = outline;
-    found.cap_turn_deg = marks.cap_turn_deg;
-    found.form = form;
+    static_cast<MarkedOutline&>(found) = found_outline.outline;
+    found.cap_turn_deg = on.marks.cap_turn_deg;
+    found.form = found_outline.form;
     found.shape.silhouette = fitted.silhouette;
-    found.shape.axis = fitted.axis;
+    found.shape.axis = unfolded(fitted.axis, fitted.silhouette);
     found.error = fitted.error;
     found.asymmetry = profile.asymmetry;
-    const std::vector<AxisPoint> measured_axis = found.shape.axis;
-    found.shape.axis = unfolded(measured_axis, found.shape.silhouette);
-    if (has_plain_stem)
-        found.method = TraceMethod::simplified;
-    else if (found.shape.axis != measured_axis)
-        found.method = TraceMethod::straightened;
+    if (found.shape.axis != fitted.axis) found.method = TraceMethod::straightened;
     const std::vector<AxisPoint>& points = found.shape.axis;
     found.lean_deg = angle_of(points.front(), points.back());
     found.bend_deg = std::abs(angle_of(points[points.size() - 2], points.back()) -
                               angle_of(points[0], points[1]));
     if (found.bend_deg > 180.0) found.bend_deg = 360.0 - found.bend_deg;
-    const double scale = params.height_m / height;
+    const double scale = params.height_m / on.height;
     if (profile.ring)
         found.ring = RingMeasure{profile.ring->height * scale, profile.ring->width * scale};
     return found;
@@ -257,13 +248,29 @@ Traced traced(const Mask& mask, const Gesture& gesture, const TraceParams& param
 }
 
 Traced traced(const FoundOutline& found, const TraceParams& params) {
-    return traced_on(found.outline, found.form, params);
+    const MeasuredOutline on = measured(found.outline, found.form);
+    const FittedProfile fitted = fitted_profile(on.contour, on.axis, on.marks, on.height, params);
+    Traced made = with_shape(found, on, fitted.profile, fitted.shape, params);
+    if (fitted.has_plain_stem) made.method = TraceMethod::simplified;
+    return made;
+}
+
+Traced stretched(const FoundOutline& found, const TraceParams& params, const Silhouette& other,
+                 double share) {
+    const MeasuredOutline on = measured(found.outline, found.form);
+    const Profile profile = profile_of(on.contour, on.axis, on.marks, on.height, params.hollow);
+    Traced made = with_shape(
+        found, on, profile,
+        stretched_shape(other, profile, on.axis, on.marks, on.height, params.height_m, share),
+        params);
+    made.method = TraceMethod::stretched;
+    return made;
 }
 
 Traced traced(const MarkedOutline& outline, const TraceParams& params) {
     require_valid(params);
     require_measurable(outline, params.form);
-    return traced_on(outline, params.form, params);
+    return traced(FoundOutline{outline, params.form}, params);
 }
 
 Traced traced(const Picture& photo, const Gesture& gesture, const TraceParams& params) {

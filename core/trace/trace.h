@@ -45,8 +45,9 @@ static_assert(well_described<TraceParams>());
 
 /// How the shape came about. fitted: as measured; straightened: the axis bends less than on the photograph,
 /// because the stem would fold; simplified: the stem is a plain one, because the outline as measured would cross
-/// itself.
-enum class TraceMethod { fitted, straightened, simplified };
+/// itself; stretched: the outline is that of another mushroom, stretched to the same heights and widths, because
+/// neither can be grown.
+enum class TraceMethod { fitted, straightened, simplified, stretched };
 
 constexpr const char* name(TraceMethod method) {
     switch (method) {
@@ -56,6 +57,8 @@ constexpr const char* name(TraceMethod method) {
             return "straightened";
         case TraceMethod::simplified:
             return "simplified";
+        case TraceMethod::stretched:
+            return "template";
     }
     return nullptr;
 }
@@ -116,6 +119,14 @@ struct FoundOutline {
 /// throws    Impossible as above
 /// cost      about 10 ms
 [[nodiscard]] Traced traced(const FoundOutline& found, const TraceParams& params);
+
+/// Returns another mushroom with the heights and widths of an outline that cannot be grown as it was found.
+///
+/// other    an outline that can be grown, with the parts of the form that was found
+/// params   whose form does not count
+/// share    how far it has them at most, 0..1; at 0 it is the other one in another size
+[[nodiscard]] Traced stretched(const FoundOutline& found, const TraceParams& params,
+                               const Silhouette& other, double share = 1.0);
 
 /// Traces an outline whose marks are known: those of another trace, or as a person has moved them. A trace of
 /// the outline that a trace has gives the same shape.

@@ -45,26 +45,6 @@ std::size_t nearest_stage(const Species& species, double age) {
     return nearest;
 }
 
-/// Requires that a template has the parts of a shape.
-void require_parts(const Species& species, const Silhouette& shape) {
-    const std::string name = in_quotes(species.id.view());
-    for (const Stage& stage : species.stages) {
-        const auto* swept = std::get_if<Swept>(&stage.model.shape);
-        if (!swept || height_of(swept->silhouette) <= 0.0)
-            throw InvalidInput("/template", name + " has no outline; choose another species");
-        if (swept->silhouette.hymenium.empty() == shape.hymenium.empty()) continue;
-        throw InvalidInput(
-            "/template",
-            shape.hymenium.empty()
-                ? name +
-                      " has a lower face, and what was traced has none; choose another species, "
-                      "or the form capped, funnel or cup"
-                : name +
-                      " has no lower face, and what was traced has one; choose another species, "
-                      "or the form morel, club or puffball");
-    }
-}
-
 std::vector<OutlinePoint>& part_of(Silhouette& silhouette, CurveName curve) {
     return curve == CurveName::stem       ? silhouette.stem
            : curve == CurveName::hymenium ? silhouette.hymenium
@@ -140,8 +120,30 @@ bool can_be_template(const Species& species, bool has_face) {
     });
 }
 
+void require_template(const Species& species, bool has_face) {
+    const std::string name = in_quotes(species.id.view());
+    for (const Stage& stage : species.stages) {
+        const auto* swept = std::get_if<Swept>(&stage.model.shape);
+        if (!swept || height_of(swept->silhouette) <= 0.0)
+            throw InvalidInput("/template", name + " has no outline; choose another species");
+        if (swept->silhouette.hymenium.empty() != has_face) continue;
+        throw InvalidInput(
+            "/template",
+            has_face ? name +
+                           " has no lower face, and what was traced has one; choose another "
+                           "species, or the form morel, club or puffball"
+                     : name +
+                           " has a lower face, and what was traced has none; choose another "
+                           "species, or the form capped, funnel or cup");
+    }
+}
+
+const Silhouette& silhouette_at(const Species& species, double age) {
+    return silhouette_of(species.stages[nearest_stage(species, age)]);
+}
+
 double height_at(const Species& species, double age) {
-    return height_of(silhouette_of(species.stages[nearest_stage(species, age)]));
+    return height_of(silhouette_at(species, age));
 }
 
 Certificate growth_certificate(const Species& species) {
@@ -173,7 +175,7 @@ Certificate growth_certificate(const Species& species) {
 }
 
 WholeSpecies whole_species(const Species& template_species, const Swept& shape, double age) {
-    require_parts(template_species, shape.silhouette);
+    require_template(template_species, !shape.silhouette.hymenium.empty());
     WholeSpecies found{template_species, nearest_stage(template_species, age), 1.0, {}};
     const std::vector<Stage>& stages = template_species.stages;
     const Change change(silhouette_of(stages[found.stage]), shape.silhouette);
@@ -192,6 +194,21 @@ WholeSpecies whole_species(const Species& template_species, const Swept& shape, 
         if (found.likeness == 0.0 || found.certificate.simple) return found;
         found.likeness = found.likeness > 0.1 ? 0.5 * found.likeness : 0.0;
     }
+}
+
+WholeSpecies sized_species(const Species& template_species, const std::vector<AxisPoint>& axis,
+                           double height_m, double age) {
+    WholeSpecies found{template_species, nearest_stage(template_species, age), 0.0, {}};
+    const double size = height_m / height_at(template_species, age);
+    for (Stage& stage : found.species.stages) {
+        auto& swept = std::get<Swept>(stage.model.shape);
+        for (const CurveName curve : curve_names)
+            for (OutlinePoint& point : part_of(swept.silhouette, curve))
+                point = {size * point.r, size * point.y};
+        swept.axis = unfolded(axis, swept.silhouette);
+    }
+    found.certificate = growth_certificate(found.species);
+    return found;
 }
 
 double hollow_of(const Silhouette& silhouette) {

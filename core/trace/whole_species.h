@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/model/species.h"
 #include "core/model/swept.h"
@@ -30,6 +31,16 @@ struct WholeSpecies {
 /// pre  all stages are swept
 [[nodiscard]] double height_at(const Species& species, double age);
 
+/// Returns the outline of the stage that is nearest to an age.
+///
+/// pre  all stages are swept
+[[nodiscard]] const Silhouette& silhouette_at(const Species& species, double age);
+
+/// Requires that a species can be the template of a whole species.
+///
+/// throws  InvalidInput (path "/template")
+void require_template(const Species& species, bool has_face);
+
 /// Returns what is proven about the outlines of a species on the way from each stage to the next, and from the
 /// first to the last.
 ///
@@ -48,6 +59,13 @@ struct WholeSpecies {
 /// throws            InvalidInput (path "/template") if the template is no such species
 /// cost              about 10 ms, nearly all of it for the proof
 [[nodiscard]] WholeSpecies whole_species(const Species& template_species, const Swept& shape,
+                                         double age);
+
+/// Returns a species that stands on an axis and is as high at an age as stated: in all else it is the template.
+///
+/// template_species  a species whose stages are swept
+[[nodiscard]] WholeSpecies sized_species(const Species& template_species,
+                                         const std::vector<AxisPoint>& axis, double height_m,
                                          double age);
 
 /// Returns how deep the cap of an outline is, of the height of its edge above its stem: what TraceParams::hollow

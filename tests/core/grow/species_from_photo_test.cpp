@@ -2,18 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "core/grow/mushroom.h"
+#include "core/mesh/measure.h"
 #include "core/params/reader.h"
 #include "core/params/value.h"
 #include "tests/support/atlas.h"
+#include "tests/support/meshes.h"
 #include "tests/support/photographs.h"
 #include "tests/support/refusals.h"
 #include "tests/support/small_atlas.h"
@@ -245,6 +251,65 @@ TEST(SpeciesFromPhoto, NamesWhatCanNotBeTracedInTheWordsOfTheRequest) {
     speck.inside[speck.index(100, 100)] = 1;
     EXPECT_TRUE(names(refused({}, speck), "/views/side/photo", "at least 120"));
     EXPECT_THROW(static_cast<void>(found_in(bolete(), {}, speck)), Impossible);
+}
+
+/// Returns a picture of three bars that cross each other, from which no form can be grown.
+Photograph crossed_bars() {
+    trace::Mask mask(200, 200);
+    const auto add = [&](const trace::Stroke& line, double width) {
+        const trace::Mask one = trace::drawn({line}, 200, 200, width);
+        for (std::size_t i = 0; i < mask.inside.size(); ++i) mask.inside[i] |= one.inside[i];
+    };
+    add({{117, 40}, {16, 80}}, 17);
+    add({{187, 190}, {40, 82}}, 16);
+    add({{176, 105}, {69, 7}}, 13);
+    const trace::Mask part = trace::without_holes(trace::largest_part(mask));
+    return {{200, 200, Bytes(3 * part.inside.size(), 128)}, part, {}};
+}
+
+TEST(SpeciesFromPhoto, OfAnOutlineThatCannotBeGrownIsAStretchedTemplate) {
+    const Photograph photo = crossed_bars();
+    trace::Gesture gesture;
+    gesture.axis = trace::upright_line(photo.truth);
+    for (int form = 0; form <= static_cast<int>(trace::Form::cup); ++form)
+        EXPECT_FALSE(refusal([&] {
+                         static_cast<void>(trace::traced(photo.truth, gesture,
+                                                         {0.1, static_cast<trace::Form>(form)}));
+                     }).empty())
+            << form;
+    trace::TraceSpec spec;
+    spec.height_m = 0.1;
+    const SpeciesFromPhoto found = found_in(photo, spec, photo.truth);
+    EXPECT_EQ(found.traced.method, trace::TraceMethod::stretched);
+    EXPECT_STREQ(trace::name(found.traced.method), "template");
+    EXPECT_TRUE(std::any_of(found.warnings.begin(), found.warnings.end(), [](const auto& warning) {
+        return std::string_view(warning.code) == "method" &&
+               warning.detail.find("that of its template") != std::string::npos;
+    }));
+    EXPECT_TRUE(found.whole.certificate.simple);
+    const Stage& made = found.whole.species.stages[found.whole.stage];
+    EXPECT_NEAR(height_of(made), 0.1, 0.02);
+    const auto own =
+        std::make_shared<const Atlas>(AtlasTexts{.species = {dump(write(found.whole.species))}});
+    for (int lod = 0; lod < 4; ++lod)
+        for (const double age : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            MushroomSpec mushroom;
+            mushroom.mix.push_back({"my_mushroom"});
+            mushroom.params.age = age;
+            mushroom.params.lod = lod;
+            mushroom.params.textures = Textures::none;
+            EXPECT_TRUE(defects(mushroom_mesh(mushroom, resolve(mushroom, *own))).empty())
+                << lod << ' ' << age;
+        }
+    // A template that is stated lends the same form.
+    spec.template_id = Text<48>(std::string_view(found.template_id));
+    spec.form = found.traced.form;
+    EXPECT_EQ(found_in(photo, spec, photo.truth).traced.method, trace::TraceMethod::stretched);
+    // One that has not its parts is named.
+    spec.template_id =
+        Text<48>(trace::has_face(spec.form) ? "morchella_esculenta" : "boletus_edulis");
+    EXPECT_TRUE(names(refusal([&] { static_cast<void>(found_in(photo, spec, photo.truth)); }),
+                      "/template"));
 }
 
 TEST(SpeciesFromPhoto, WarnsOfSidesThatDiffer) {

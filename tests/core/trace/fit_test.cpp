@@ -60,5 +60,42 @@ TEST(FittedShape, ItsAxisHasTheLengthOfTheStemAsItsUnit) {
     EXPECT_GT(shape.axis.back().x, 0.1);
 }
 
+TEST(StretchedShape, HasTheHeightsAndWidthsOfTheProfile) {
+    DrawnMushroom drawn;
+    drawn.bend_deg = 10.0;
+    // Another one: a thicker, shorter stem and a smaller cap.
+    DrawnMushroom other;
+    other.stem_top = 0.5;
+    other.stem_radius = 0.11;
+    other.cap_radius = 0.25;
+    const Silhouette lent = fitted(other, 0.03).silhouette;
+    const trace::Contour contour = trace::contour_of(drawn.mask(), 0.0028 * drawn.pixels);
+    const trace::TracedAxis axis =
+        trace::axis_of(contour, drawn.gesture().axis, drawn.axis(drawn.stem_top));
+    const trace::Marks marks = trace::marks_of(contour, axis, drawn.pixels, trace::Form::capped);
+    const trace::Profile profile = trace::profile_of(contour, axis, marks, drawn.pixels, 0.7);
+    const auto stretched = [&](double share) {
+        return trace::stretched_shape(lent, profile, axis, marks, drawn.pixels, 0.1, share);
+    };
+    const trace::FittedShape whole = stretched(1.0);
+    EXPECT_NO_THROW(static_cast<void>(Outline(whole.silhouette)));
+    EXPECT_EQ(whole.silhouette.cap.size(), lent.cap.size());
+    EXPECT_NEAR(whole.silhouette.stem.back().y, 0.07, 0.002);
+    EXPECT_NEAR(whole.silhouette.stem.back().r, 0.006, 0.0006);
+    EXPECT_NEAR(whole.silhouette.hymenium.back().r, 0.035, 0.001);
+    EXPECT_NEAR(whole.silhouette.cap.back().y, 0.1, 0.002);
+    EXPECT_LT(whole.error, 0.05);
+    EXPECT_LT(whole.axis.front().x, whole.axis.back().x);
+    // Without any of the map it is the other one in another size.
+    const trace::FittedShape sized = stretched(0.0);
+    const double size = sized.silhouette.cap.back().y / lent.cap.back().y;
+    EXPECT_NEAR(sized.silhouette.cap.back().y, 0.1, 0.002);
+    for (std::size_t i = 0; i < lent.stem.size(); ++i) {
+        EXPECT_NEAR(sized.silhouette.stem[i].r, size * lent.stem[i].r, 1e-12);
+        EXPECT_NEAR(sized.silhouette.stem[i].y, size * lent.stem[i].y, 1e-12);
+    }
+    EXPECT_GT(sized.error, whole.error);
+}
+
 }  // namespace
 }  // namespace sporeprint::trace_fit_test

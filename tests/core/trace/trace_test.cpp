@@ -244,6 +244,38 @@ TEST(Traced, RefusesALineThatLeadsNowhere) {
             << trace::name(form);
 }
 
+RC_GTEST_PROP(Stretched, AnyOutlineThatIsFoundCanBeGrown, ()) {
+    trace::Mask mask(200, 200);
+    const int parts = *rc::gen::inRange(1, 6);
+    for (int part = 0; part < parts; ++part) {
+        const glm::dvec2 from(*rc::gen::inRange(0, 200), *rc::gen::inRange(0, 200)),
+            to(*rc::gen::inRange(0, 200), *rc::gen::inRange(0, 200));
+        const trace::Mask one = trace::drawn({{from, to}}, 200, 200, *rc::gen::inRange(3, 60));
+        for (std::size_t i = 0; i < mask.inside.size(); ++i) mask.inside[i] |= one.inside[i];
+    }
+    const trace::Mask part = trace::without_holes(trace::largest_part(mask));
+    const auto form = static_cast<trace::Form>(*rc::gen::inRange(1, 7));
+    trace::Gesture gesture;
+    gesture.axis = trace::upright_line(part);
+    trace::FoundOutline found;
+    try {
+        found = trace::outline_on(part, gesture, form);
+    } catch (const InvalidInput&) {
+        return;  // refused by name
+    }
+    const std::vector<std::string> lenders = {"boletus_edulis",      "cantharellus_cibarius",
+                                              "morchella_esculenta", "clavariadelphus_pistillaris",
+                                              "lycoperdon_perlatum", "cyathus_striatus"};
+    const Species& lender = atlas().find(lenders[static_cast<std::size_t>(form) - 1])->species;
+    const Stage& stage = lender.stages[*rc::gen::inRange<std::size_t>(0, lender.stages.size())];
+    const trace::Traced made =
+        trace::stretched(found, {0.1, form}, std::get<Swept>(stage.model.shape).silhouette);
+    RC_ASSERT(made.method == trace::TraceMethod::stretched);
+    static_cast<void>(Outline(made.shape.silhouette));
+    for (const AxisPoint& point : made.shape.axis)
+        RC_ASSERT(std::isfinite(point.x) && std::isfinite(point.y));
+}
+
 RC_GTEST_PROP(Traced, AnyMaskAndLineIsTracedOrRefusedByName, ()) {
     // Discs and bars at random places, and a line anywhere.
     trace::Mask mask(200, 200);

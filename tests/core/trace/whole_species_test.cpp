@@ -197,5 +197,26 @@ TEST(WholeSpecies, NeedsATemplateWithThePartsOfTheShape) {
     EXPECT_TRUE(names(problems_of("amanita_muscaria", club), "/template", "has a lower face"));
 }
 
+TEST(SizedSpecies, IsTheTemplateInAnotherSizeOnAnotherAxis) {
+    for (const char* id : {"cantharellus_cibarius", "boletus_edulis", "cyathus_striatus"}) {
+        const Species& own = species_of(id);
+        const std::vector<AxisPoint> axis = {{0, 0, 0}, {0.02, 0.5, 0}, {0.08, 0.99, 0}};
+        const double height = 3.0 * trace::height_at(own, 0.7);
+        const trace::WholeSpecies found = trace::sized_species(own, axis, height, 0.7);
+        EXPECT_TRUE(found.certificate.simple) << id;
+        EXPECT_NEAR(trace::height_at(found.species, 0.7), height, 1e-9);
+        for (std::size_t i = 0; i < own.stages.size(); ++i) {
+            const Silhouette &made = shape_of(found.species.stages[i]).silhouette,
+                             &old = shape_of(own.stages[i]).silhouette;
+            ASSERT_EQ(made.cap.size(), old.cap.size());
+            for (std::size_t k = 0; k < old.cap.size(); ++k) {
+                EXPECT_NEAR(made.cap[k].r, 3.0 * old.cap[k].r, 1e-12) << id << i;
+                EXPECT_NEAR(made.cap[k].y, 3.0 * old.cap[k].y, 1e-12) << id << i;
+            }
+            EXPECT_FALSE(shape_of(found.species.stages[i]).axis.empty());
+        }
+    }
+}
+
 }  // namespace
 }  // namespace sporeprint::trace_whole_species_test
