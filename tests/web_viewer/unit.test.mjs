@@ -15,11 +15,16 @@ const { outputFiles } = packages("esbuild").buildSync({
             "camera",
             "close_ups",
             "depth_of_field",
+            "designer/axis_line",
+            "designer/details",
             "designer/findings",
             "designer/gesture",
             "designer/outline",
             "designer/service",
+            "designer/sketch",
+            "designer/species_chooser",
             "designer/species_file",
+            "designer/stage_strip",
             "dom",
             "gallery",
             "history",
@@ -1109,6 +1114,183 @@ test("a place of the outline is found again on the photograph, on both sides of 
     assert.ok(Math.hypot(top[0] - 470, top[1] - 200) < 1e-9);
 });
 
+test("a dragged curve takes both points of its piece along, and a whole curve all of its own", () => {
+    const by = { r: 0, y: 0.001 };
+    const { silhouette: piece, stopped } = page.dragged(bolete, page.weightsOfPiece(7, 0.25), by);
+    assert.equal(stopped, undefined);
+    page.controlsOf(piece).forEach(({ r, y }, at) => {
+        const old = page.controlsOf(bolete)[at];
+        const share = { 7: 0.75, 8: 0.25 }[at] ?? 0;
+        assert.ok(Math.hypot(r - old.r, y - old.y - share * by.y) < 1e-12, `point ${at}`);
+    });
+    const weights = page.weightsOfCurve(bolete, "cap");
+    const { silhouette: whole } = page.dragged(bolete, weights, by);
+    for (const [at, { curve, y }] of page.controlsOf(whole).entries()) {
+        const { y: old } = page.controlsOf(bolete)[at];
+        // The margin belongs to the lower face and to the cap.
+        const moves = curve === "cap" || at === 6;
+        assert.ok(Math.abs(y - old - (moves ? by.y : 0)) < 1e-12, `point ${at} of the ${curve}`);
+    }
+    const far = page.dragged(bolete, page.weightsOfCurve(bolete, "cap"), { r: 0, y: -0.2 });
+    assert.ok(far.stopped, "a cap is not dragged through the stem");
+    assert.equal(page.crossingOf(far.silhouette), undefined);
+});
+
+test("the nearest place of the curve is found, and a point is inserted there", () => {
+    for (const span of [1, 5, 8])
+        for (const share of [0.25, 0.5, 0.75]) {
+            const place = page.polylineOf(bolete, 4)[4 * span + 4 * share];
+            const found = page.nearestOn(bolete, place);
+            assert.equal(found.span, span);
+            assert.ok(Math.abs(found.share - share) < 0.03 && found.away < 1e-12);
+            const more = page.withInserted(bolete, span, found.share);
+            const control = page.controlsOf(more)[span + 1];
+            assert.ok(Math.hypot(control.r - place.r, control.y - place.y) < 1e-12);
+        }
+});
+
+test("brackets walk from curve to curve and stay at the ends", () => {
+    const curveAt = (at) => page.controlsOf(bolete)[at].curve;
+    let at = 2;
+    const names = ["stem", "hymenium", "cap", "cap"];
+    for (const name of names.slice(1)) {
+        at = page.startOfCurve(bolete, at, 1);
+        assert.equal(curveAt(at), name);
+    }
+    at = page.startOfCurve(bolete, at, -1);
+    assert.equal(curveAt(at), "hymenium");
+    at = page.startOfCurve(bolete, page.startOfCurve(bolete, at, -1), -1);
+    assert.equal(curveAt(at), "stem");
+});
+
+test("a dragged point snaps to the nearest measured line and to the ground", () => {
+    const line = [
+        { r: 0.02, y: 0 },
+        { r: 0.02, y: 0.1 },
+    ];
+    assert.deepEqual(page.snapped({ r: 0.0205, y: 0.05 }, [line], 0.001), { r: 0.02, y: 0.05 });
+    assert.equal(page.snapped({ r: 0.022, y: 0.05 }, [line], 0.001), undefined);
+    assert.deepEqual(page.snapped({ r: 0.03, y: -0.0005 }, [line], 0.001), { r: 0.03, y: 0 });
+});
+
+test("values of a document are changed by pointer, and nothing else is", () => {
+    const species = { id: "own", stages: [{ age: 0, model: { surface: { cap: { image: "x" } } } }] };
+    const before = structuredClone(species);
+    const ramp = ["#000000", "#FFFFFF"];
+    const changed = page.withDetails(species, {
+        "/stages/0/model/surface/cap/ramp": ramp,
+        "/stages/0/model/surface/cap/image": undefined,
+        "/stages/7/model/form": "swept",
+        "/spread/size": 0.3,
+        "/facts/sources": undefined,
+    });
+    assert.deepEqual(species, before, "documents are immutable");
+    assert.deepEqual(changed, {
+        id: "own",
+        stages: [{ age: 0, model: { surface: { cap: { ramp } } } }],
+        spread: { size: 0.3 },
+    });
+    assert.equal(page.atPointer(changed, "/stages/0/model/surface/cap/ramp/1"), "#FFFFFF");
+    assert.equal(page.atPointer(changed, "/stages/3/model"), undefined);
+    const details = {
+        "/stages/1/model/axis": [],
+        "/stages/1/model/deformation/bend_deg": 3,
+        "/stages/1/model/warts/count": 4,
+        "/spread/size": 0.2,
+    };
+    assert.deepEqual(Object.keys(page.withoutGeometry(details)), [
+        "/stages/1/model/warts/count",
+        "/spread/size",
+    ]);
+    assert.deepEqual(page.withoutStages(details), { "/spread/size": 0.2 });
+    assert.equal(page.withoutStages({ "/stages/1/age": 0.1 }), undefined);
+});
+
+test("an axis bends until the stem would fold, and its angles are those of its ends", () => {
+    const upright = page.uprightAxis(5);
+    assert.deepEqual(page.anglesOf(upright), { bend_deg: 0, lean_deg: 0 });
+    assert.equal(page.foldOf(upright, bolete), 0);
+    const { axis, stopped } = page.bent(upright, 4, { x: 0.04, y: 1 }, bolete);
+    assert.equal(stopped, false);
+    const { bend_deg: bend, lean_deg: lean } = page.anglesOf(axis);
+    assert.ok(bend > 5 && bend < 15 && lean < 5, `${bend}°, ${lean}°`);
+    const fold = page.bent(upright, 2, { x: 1.5, y: 0.2 }, bolete);
+    assert.equal(fold.stopped, true);
+    assert.ok(page.foldOf(fold.axis, bolete) <= 0.81);
+    assert.deepEqual(page.bent(upright, 0, { x: 1, y: 1 }, bolete).axis, upright, "the root stays");
+});
+
+test("an axis has as many points as wanted without another shape", () => {
+    const axis = [0, 0.25, 0.5, 0.75, 1].map((y) => ({ x: 0.2 * y * y, y, z: 0 }));
+    const { bend_deg: bend } = page.anglesOf(axis);
+    for (const count of [4, 9, 13]) {
+        const other = page.resampled(axis, count);
+        assert.equal(other.length, count);
+        assert.ok(Math.abs(page.anglesOf(other).bend_deg - bend) < 4);
+        assert.ok(Math.abs(other.at(-1).x - 0.2) < 1e-9);
+    }
+    const more = page.withAxisPoint(axis, 1);
+    assert.equal(more.length, 6);
+    assert.deepEqual(page.withoutAxisPoint(more, 2), axis);
+    assert.deepEqual(page.withoutAxisPoint(axis, 0), axis, "both ends stay");
+    const full = page.resampled(axis, page.mostAxisPoints);
+    assert.equal(page.withAxisPoint(full, 1).length, page.mostAxisPoints);
+});
+
+test("a model stands on the photograph where it was traced, along its own axis", () => {
+    const line = [
+        [400, 700],
+        [400, 100],
+    ];
+    const traced = new page.AxisFrame(line, 0.12);
+    const straight = page.placed({ silhouette: bolete }, traced);
+    assert.equal(straight.frame, traced);
+    const axis = [0, 0.5, 1].map((y) => ({ x: 0.1 * y, y, z: 0 }));
+    const { frame, toPhoto, fromPhoto } = page.placed({ silhouette: bolete, axis }, traced);
+    const { base, top } = page.stemOf(bolete);
+    const [x, y] = frame.toPhoto({ r: 0, y: base }, 1);
+    const root = traced.toPhoto({ r: 0, y: base }, 1);
+    assert.ok(Math.hypot(x - root[0], y - root[1]) < 1e-6);
+    const end = frame.toPhoto({ r: 0, y: top }, 1);
+    const there = toPhoto(axis[2]);
+    assert.ok(Math.hypot(end[0] - there[0], end[1] - there[1]) < 0.5);
+    assert.ok(end[0] > 405, "it leans to the right");
+    const back = fromPhoto(there);
+    assert.ok(Math.hypot(back.x - 0.1, back.y - 1) < 1e-9);
+});
+
+test("the window on a picture zooms about a place and never leaves the picture", () => {
+    const extent = { width: 1000, height: 500 };
+    const whole = { x: 0, y: 0, ...extent };
+    const near = page.zoomed(whole, extent, 4, [250, 125]);
+    assert.deepEqual(near, { x: 187.5, y: 93.75, width: 250, height: 125 });
+    assert.deepEqual(page.zoomed(near, extent, 0.1, [0, 0]), whole);
+    assert.equal(page.zoomed(near, extent, 1e9, [1000, 500]).width, 1000 / 16);
+    const box = page.viewOf({ x: 900, y: 400, width: 50, height: 90 }, extent);
+    assert.ok(box.x + box.width <= 1000 && box.y + box.height <= 500 && box.height >= 90);
+});
+
+test("steps of a history come back with it, and a stage has its outline and its words", () => {
+    const first = new page.History(1);
+    for (const value of [2, 3, 4]) first.push(value);
+    first.undo();
+    const again = new page.History(0);
+    again.begin(first.value, first.steps.past, first.steps.future);
+    assert.deepEqual([again.redo(), again.undo(), again.undo(), again.undo()], [4, 3, 2, 1]);
+    assert.equal(again.undoable, false);
+    const d = page.smallOutline(bolete);
+    assert.match(d, /^M[\d. L-]+Z$/);
+    for (const value of d.match(/[\d.]+/g).map(Number)) assert.ok(value >= 3.9 && value <= 96.1);
+    const { title } = page.captionOf({ age: 0.3, name: "button", model: { silhouette: bolete } });
+    assert.match(title, /^30 %, \d+ mm$/);
+});
+
+test("a search finds species by every word of it", () => {
+    const cep = { id: "boletus_edulis", common_name: "Cep", form: "bolete" };
+    for (const search of ["", "cep", "BOLETUS", "bolete cep"]) assert.ok(page.isFound(cep, search));
+    assert.equal(page.isFound(cep, "cep agaric"), false);
+});
+
 test("the file of a species is opened on paper, and what is none is refused by its place", async () => {
     const stage = (age) => ({ age, name: "", model: { form: "swept", silhouette: bolete } });
     const species = { id: "own", stages: [stage(0), stage(0.5), stage(1)] };
@@ -1118,6 +1300,10 @@ test("the file of a species is opened on paper, and what is none is refused by i
     for (const none of [null, 7, {}, { stages: [] }, { stages: 3 }]) refused(none, /\/stages/);
     refused({ stages: [stage(0), { age: 1, model: {} }] }, /\/stages\/1\/model\/silhouette/);
     refused({ stages: [stage("old")] }, /\/stages\/0\/age/);
+    const coral = { form: "branched", limbs: { height: 0.1 } };
+    const branched = { id: "coral", stages: [{ age: 0.6, name: "", model: coral }] };
+    const opened = await page.SpeciesFile.read(new Blob([JSON.stringify(branched)]));
+    assert.deepEqual((await opened.trace()).species, branched, "branches have no outline");
     const file = await page.SpeciesFile.read(new Blob([JSON.stringify(species)]));
     const trace = await file.trace();
     assert.equal(trace.stage, 1);

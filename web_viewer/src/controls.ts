@@ -1,7 +1,17 @@
 // The controls, made from the fields of the schema: native inputs whose `name` is the query name.
 import { make } from "./dom";
 import { validationError, valueAt, type Field, type Group, type Value } from "./schema";
-import type { Settings } from "./settings";
+
+/** Where the values of controls are. */
+export interface ControlledValues {
+    /** Those that differ from the owner's, by the name of the field. */
+    readonly values: ReadonlyMap<string, Value>;
+    field(name: string): Field | undefined;
+    /** Sets a value; undefined goes back to the owner's. */
+    set(name: string, value: Value | undefined): void;
+    /** Returns false for a field that has no effect now. */
+    applies(field: Field): boolean;
+}
 
 export interface ControlEvents {
     /** A control is being dragged; the settings have the new value already. */
@@ -27,7 +37,7 @@ class Control {
 
     constructor(
         readonly field: Field,
-        private readonly settings: Settings,
+        private readonly settings: ControlledValues,
         private readonly events: ControlEvents,
     ) {
         const id = `control-${field.name}`;
@@ -232,7 +242,7 @@ export class Controls {
     constructor(
         hostOf: (group: Group) => HTMLElement,
         groups: readonly Group[],
-        settings: Settings,
+        settings: ControlledValues,
         private readonly events: ControlEvents,
     ) {
         groups.forEach((group, index) => {

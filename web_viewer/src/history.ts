@@ -42,10 +42,15 @@ export class History<T> {
         return (this.present = after);
     }
 
-    /** Starts with another value; no earlier step can be undone. */
-    begin(value: T): void {
-        this.past = [];
-        this.future = [];
+    /** All steps before and after the present one, the nearest last. */
+    get steps(): { past: readonly T[]; future: readonly T[] } {
+        return { past: this.past, future: this.future };
+    }
+
+    /** Starts with another value; earlier steps can be undone only if they are given. */
+    begin(value: T, past: readonly T[] = [], future: readonly T[] = []): void {
+        this.past = past.slice(-most);
+        this.future = [...future];
         this.present = value;
     }
 }

@@ -33,7 +33,7 @@ import { Sheet, sheetButtons } from "./sheet";
 import type { Stage } from "./stage";
 import { announce } from "./status_line";
 import { Toolbar } from "./toolbar";
-import { panels, readView, ViewStore, type ViewState } from "./view_state";
+import { panels, readView, ViewStore, type PanelName, type ViewState } from "./view_state";
 
 /** Time in which quick changes become one request, milliseconds. */
 const changeDelayMs = 60;
@@ -77,7 +77,7 @@ export class Page {
     private readonly gallery: Gallery;
     private readonly controls: Controls;
     private readonly views: ViewStore;
-    private readonly tabs: PanelTabs;
+    private readonly tabs: PanelTabs<PanelName>;
     private readonly exports: ExportPanel;
     private readonly editor: MorphEditor;
     private readonly matrix: MatrixTable | undefined;
@@ -106,7 +106,7 @@ export class Page {
         connectSearch(this.gallery);
         this.plate = new NamePlate(product, (id) => this.gallery.find(id));
         this.views = new ViewStore((view) => this.address.writeView(view));
-        this.tabs = new PanelTabs((panel) => this.views.change({ panel }));
+        this.tabs = new PanelTabs(panels, (panel) => this.views.change({ panel }));
         this.exports = new ExportPanel(this.settings, stage, this.views, {
             lodChosen: () => this.changed("lod"),
         });

@@ -1,10 +1,12 @@
-// The tabs of the panel beside the stage: how the model grows, and how it is exported.
+// The tabs of a panel beside the stage: of the page, and of the designer.
 import { byId } from "./dom";
-import { panels, type PanelName } from "./view_state";
 
-export class PanelTabs {
+export class PanelTabs<Name extends string> {
     /** `chosen` is called when the user opens a panel. */
-    constructor(private readonly chosen: (name: PanelName) => void) {
+    constructor(
+        private readonly panels: readonly Name[],
+        private readonly chosen: (name: Name) => void,
+    ) {
         for (const [index, name] of panels.entries()) {
             const tab = byId(`tab-${name}`);
             tab.addEventListener("click", () => this.choose(name));
@@ -20,8 +22,8 @@ export class PanelTabs {
     }
 
     /** Opens a panel and closes the others. */
-    open(name: PanelName): void {
-        for (const one of panels) {
+    open(name: Name): void {
+        for (const one of this.panels) {
             const tab = byId(`tab-${one}`);
             tab.setAttribute("aria-selected", String(one === name));
             tab.tabIndex = one === name ? 0 : -1;
@@ -29,7 +31,7 @@ export class PanelTabs {
         }
     }
 
-    private choose(name: PanelName): void {
+    private choose(name: Name): void {
         this.open(name);
         this.chosen(name);
     }

@@ -25,20 +25,46 @@ import {
     type Drawing,
     type Gesture,
     type PlaceOnPage,
+    type Point,
     type Tool,
 } from "./gesture";
 import { forgetDraft, loadDraft, saveDraft } from "./draft";
 import { LiveModel } from "./live_model";
-import { withInserted, withRemoved, type Silhouette } from "./outline";
-import { OutlineEditor } from "./outline_editor";
+import { AxisEditor } from "./axis_editor";
+import {
+    anglesOf,
+    axisOf,
+    placed,
+    resampled,
+    uprightAxis,
+    withAxisPoint,
+    withoutAxisPoint,
+    type AxisPoint,
+} from "./axis_line";
+import {
+    modelPointer,
+    withoutGeometry,
+    withoutStages,
+    type Details,
+    type Json,
+} from "./details";
+import { Loupe } from "./loupe";
+import { AxisFrame, polylineOf, withInserted, withRemoved, type Silhouette } from "./outline";
+import { OutlineEditor, type ShownOutline } from "./outline_editor";
+import { OverPhoto, windowOf } from "./over_photo";
+import { Portraits } from "./portraits";
+import { tracedForms } from "./schemas";
+import { SpeciesChooser } from "./species_chooser";
+import { StageStrip } from "./stage_strip";
 import { PointTable } from "./point_table";
 import {
     checkOutline,
     Photograph,
     shapeOf,
     sizeOf,
-    withShape,
+    withEdits,
     type Source,
+    type Stage as SpeciesStage,
     type Trace,
 } from "./service";
 import { SpeciesFile } from "./species_file";
@@ -90,6 +116,20 @@ function isSpeciesFile(file: Blob): boolean {
     return file.type === "application/json" || (file instanceof File && /\.json$/i.test(file.name));
 }
 
+/** Names of forms in the list; others are shown as the service names them. */
+const formNames: Readonly<Record<string, string>> = {
+    auto: "as it looks",
+    capped: "stem and cap",
+    morel: "morel: a head on a stem",
+};
+
+/** An axis with fewer points is easier to bend. */
+const fewPoints = 5;
+
+/** The most that the service takes, degrees. */
+const mostBend = 90;
+const mostLean = 45;
+
 /** Time after which a step is in the draft, milliseconds. */
 const saveDelayMs = 300;
 
@@ -102,7 +142,12 @@ export class Designer {
     private stage: Stage | undefined;
     private live: LiveModel | undefined;
     private readonly outline: OutlineEditor;
-    private editing = false;
+    private readonly axis: AxisEditor;
+    private readonly strip: StageStrip;
+    private readonly overPhoto: OverPhoto;
+    private portraits: Portraits | undefined;
+    /** Lines are drawn, or points of the outline or of the axis are moved. */
+    private mode: "draw" | "outline" | "bend" = "draw";
     private photograph: Source | undefined;
     private address: string | undefined;
     private opening: AbortController | undefined;
@@ -120,35 +165,72 @@ export class Designer {
         this.sketch = new Sketch({
             drawn: (gesture) => this.drawn(gesture),
             pending: () => this.showOrder(),
+            pinching: () => {
+                this.outline.giveUp();
+                this.axis.giveUp();
+            },
             said: announce,
         });
-        this.outline = new OutlineEditor((event) => this.sketch.exactly(event), {
-            moving: (silhouette) => this.showDraft(silhouette),
+        const loupe = new Loupe(() => this.sketch.ratio);
+        const toPicture = (place: { clientX: number; clientY: number }): Point =>
+            this.sketch.exactly(place);
+        const shared = {
+            covered: (place: Point | undefined) => loupe.show(place),
+            focused: (place: Point) => this.sketch.reveal(place),
+            said: announce,
+        };
+        this.outline = new OutlineEditor(toPicture, {
+            ...shared,
+            moving: (silhouette) => {
+                this.strip.dragging(this.shownStage, silhouette);
+                this.showDraft({ silhouette });
+            },
             moved: (silhouette) =>
-                this.reshape((old, stage) => (stage === this.traced?.stage ? silhouette : old)),
+                this.reshape((old, stage) => (stage === this.shownStage ? silhouette : old)),
             // All stages have the same points, so that they can blend.
-            insert: (at) => this.reshape((old) => withInserted(old, at)),
-            remove: (at) => this.reshape((old) => withRemoved(old, at)),
-            said: announce,
+            insert: (at, share) => {
+                this.reshape((old) => withInserted(old, at, share));
+                announce("A point was added, in all stages.");
+            },
+            remove: (at) => {
+                this.reshape((old) => withRemoved(old, at));
+                announce("The point was removed, in all stages.");
+            },
+            whole: (whole) => this.moveWhole(whole),
         });
-        this.sketch.overlay(this.outline.element);
-        this.findings = new Findings({
-            template: (template) => this.change({ template }),
-            stage: (index) => this.showStage(index),
+        this.axis = new AxisEditor(toPicture, {
+            ...shared,
+            moving: (axis) => this.showDraft({ axis }),
+            moved: (axis) => this.bend((old, stage) => (stage === this.shownStage ? axis : old)),
+            insert: (at) => this.bend((old) => withAxisPoint(old, at)),
+            remove: (at) => this.bend((old) => withoutAxisPoint(old, at)),
         });
+        const portraits = (): Portraits => (this.portraits ??= new Portraits());
+        this.overPhoto = new OverPhoto(portraits);
+        for (const { element } of [this.overPhoto, this.outline, this.axis])
+            this.sketch.overlay(element);
+        this.strip = new StageStrip(
+            (stage) => this.editStage(stage),
+            portraits,
+            () => !this.live?.idle || !!this.tracing,
+        );
+        this.findings = new Findings({ template: (template) => this.change({ template }) });
+        new SpeciesChooser((file) => void this.open(file));
         for (const tool of tools) {
             const { label, title } = words[tool];
             const button = make("button", { type: "button", "data-tool": tool, title }, label);
             button.addEventListener("click", () => this.use(tool));
             byId("tools").append(button);
         }
-        const edit = make(
-            "button",
-            { type: "button", "data-tool": "outline", title: "Move the points of the outline" },
-            "Outline",
-        );
-        edit.addEventListener("click", () => this.edit());
-        byId("tools").append(edit);
+        const modes = [
+            ["outline", "Outline", "Move the points of the outline"],
+            ["bend", "Axis", "Bend the stem"],
+        ] as const;
+        for (const [mode, label, title] of modes) {
+            const button = make("button", { type: "button", "data-tool": mode, title }, label);
+            button.addEventListener("click", () => this.edit(mode));
+            byId("tools").append(button);
+        }
         this.connect();
         this.state = "empty";
     }
@@ -157,12 +239,19 @@ export class Designer {
     async resume(): Promise<void> {
         const draft = await loadDraft();
         if (!draft || this.photograph || this.opening) return;
-        await this.open(draft.file, { ...startOfDrawing, ...draft.drawing });
+        const { file, drawing, past, future } = draft;
+        const whole = (each: Drawing): Drawing => ({ ...startOfDrawing, ...each });
+        const steps = { past: (past ?? []).map(whole), future: (future ?? []).map(whole) };
+        await this.open(file, whole(drawing), steps);
         if (this.photograph) announce("The draft of the last visit is open again.");
     }
 
     /** Opens a photograph in place of the last one. */
-    async open(file: Blob, drawing = startOfDrawing): Promise<void> {
+    async open(
+        file: Blob,
+        drawing = startOfDrawing,
+        steps: { past: Drawing[]; future: Drawing[] } = { past: [], future: [] },
+    ): Promise<void> {
         this.opening?.abort();
         const opening = new AbortController();
         this.opening = opening;
@@ -176,7 +265,8 @@ export class Designer {
                 : await Photograph.upload(file, opening.signal, announce);
             const address = URL.createObjectURL(await photograph.picture(opening.signal));
             if (opening.signal.aborted) return URL.revokeObjectURL(address);
-            this.begin(photograph, address, drawing);
+            this.history.begin(drawing, steps.past, steps.future);
+            this.begin(photograph, address);
         } catch (error) {
             if (opening.signal.aborted) return;
             this.state = this.photograph ? "ready" : "failed";
@@ -186,28 +276,28 @@ export class Designer {
         }
     }
 
-    private begin(photograph: Source, address: string, drawing: Drawing): void {
+    private begin(photograph: Source, address: string): void {
         this.photograph?.forget();
         if (this.address) URL.revokeObjectURL(this.address);
         this.photograph = photograph;
         this.address = address;
-        this.history.begin(drawing);
         this.fresh = true;
         byId("welcome").hidden = true;
         for (const id of ["desk", "stage", "panel"]) byId(id).hidden = false;
         document.body.classList.add("working");
         this.makeStage();
         this.sketch.open(address, photograph.stored);
+        this.overPhoto.open(photograph.stored);
         this.showTrace(undefined);
         this.use(this.missing() ?? "keep");
         byId("sketch").focus();
         byId("sketch").classList.toggle("paper", !photograph.drawable);
         for (const button of byId("tools").children)
             (button as HTMLElement).hidden =
-                !photograph.drawable && (button as HTMLElement).dataset["tool"] !== "outline";
+                !photograph.drawable && tools.some((tool) => tool === (button as HTMLElement).dataset["tool"]);
         byId("size").hidden = !photograph.drawable;
         this.restored();
-        if (!photograph.drawable) return this.edit();
+        if (!photograph.drawable) return this.edit("outline");
         if (photograph.stored.alpha) announce("It is cut out already: traced at once.");
         else announce(`${byId("sentence").textContent}.`);
     }
@@ -259,6 +349,7 @@ export class Designer {
                 this.state = "failed";
                 this.showFailure(error);
             },
+            arrived: (file) => this.showOverPhoto(file),
             shown: (file) => {
                 this.file = file;
                 byId("stage-hint").hidden = true;
@@ -281,6 +372,31 @@ export class Designer {
         });
         byId("undo").addEventListener("click", () => this.step("undo"));
         byId("redo").addEventListener("click", () => this.step("redo"));
+        const overPhoto = byId<HTMLInputElement>("over-photo");
+        overPhoto.addEventListener("change", () => {
+            if (!overPhoto.checked) this.overPhoto.clear();
+            else if (this.file) this.showOverPhoto(this.file);
+        });
+        byId("zoom-in").addEventListener("click", () => this.sketch.zoomIn());
+        byId("zoom-out").addEventListener("click", () => this.sketch.zoomOut());
+        byId("zoom-whole").addEventListener("click", () => this.sketch.zoomWhole());
+        const editor = (): OutlineEditor | AxisEditor =>
+            this.mode === "bend" ? this.axis : this.outline;
+        byId("add-point").addEventListener("click", () => editor().insert());
+        byId("remove-point").addEventListener("click", () => editor().remove());
+        byId("whole-curve").addEventListener("click", () => {
+            this.moveWhole(byId("whole-curve").getAttribute("aria-pressed") !== "true");
+        });
+        byId("bend-axis").addEventListener("click", () => {
+            this.bend(() => uprightAxis());
+            this.axis.focus();
+            announce("The stem has an axis of four points; move them to bend it.");
+        });
+        byId("fewer-points").addEventListener("click", () => {
+            this.bend((old) => resampled(old, fewPoints));
+            announce(`The axis has ${fewPoints} points now, in all stages.`);
+        });
+        byId("straighten").addEventListener("click", () => this.straighten());
         byId("finish").addEventListener("click", () => this.sketch.finish());
         byId("take-back").addEventListener("click", () => this.sketch.takeBack());
         byId("clear").addEventListener("click", () => {
@@ -315,6 +431,21 @@ export class Designer {
             saveFile(new Blob([text], { type: "application/json" }), `${species.id}.json`);
         });
         addEventListener("keydown", (event) => this.key(event));
+        void this.listForms();
+    }
+
+    /** Fills the list of forms with those that the service can look for. */
+    private async listForms(): Promise<void> {
+        const form = byId<HTMLSelectElement>("form");
+        try {
+            const options = (await tracedForms()).map((name) =>
+                make("option", { value: name }, formNames[name] ?? name),
+            );
+            if (options.length > 0) form.replaceChildren(...options);
+            form.value = this.history.value.form;
+        } catch (error) {
+            this.say("form", asRequestFailed(error, "The forms cannot be listed").message);
+        }
     }
 
     private key(event: KeyboardEvent): void {
@@ -330,8 +461,10 @@ export class Designer {
     private step(kind: "undo" | "redo"): void {
         if (kind === "undo" && this.sketch.takeBack()) return;
         if (!(kind === "undo" ? this.history.undoable : this.history.redoable)) return;
+        const before = this.history.value;
         this.history[kind]();
         announce(kind === "undo" ? "Undone." : "Done again.");
+        this.followStep(before, this.history.value);
         const missing = this.missing();
         if (missing && missing !== this.sketch.tool) this.use(missing);
         this.restored();
@@ -358,59 +491,228 @@ export class Designer {
         }
     }
 
-    /** A change of what is traced discards an edited outline; undo brings it back. */
+    /** Undo and redo show the stage whose outline they change. */
+    private followStep(before: Drawing, after: Drawing): void {
+        const count = Math.max(before.shape?.length ?? 0, after.shape?.length ?? 0);
+        const traced = this.traced && shapeOf(this.traced.species);
+        const of = (drawing: Drawing, stage: number): unknown =>
+            drawing.shape?.[stage] ?? traced?.[stage];
+        const changed = Array.from({ length: count }, (_, stage) => stage).filter(
+            (stage) => of(before, stage) !== of(after, stage),
+        );
+        if (changed.length > 0 && !changed.includes(this.shownStage))
+            this.shownStage = changed[0] ?? this.shownStage;
+    }
+
+    /** A change of what is traced discards an edited outline and axis, and one of the species that
+     *  lends the rest discards all changes of its stages; undo brings them back. */
     private change(change: Partial<Drawing>): void {
-        this.history.push({ ...this.history.value, shape: undefined, ...change });
+        const { details } = this.history.value;
+        const lent = "template" in change || "form" in change;
+        const left = lent ? withoutStages(details) : withoutGeometry(details);
+        this.history.push({ ...this.history.value, shape: undefined, details: left, ...change });
+        this.restored();
+    }
+
+    /** Changes the species itself: one step of undo. */
+    private edited(change: Pick<Drawing, "shape" | "details">): void {
+        this.history.push({ ...this.history.value, ...change });
         this.restored();
     }
 
     /** Changes the outlines of all stages. */
     private reshape(changed: (old: Silhouette, stage: number) => Silhouette): void {
         const shape = this.trace && shapeOf(this.trace.species);
-        if (shape) this.change({ shape: shape.map(changed) });
+        if (shape) this.edited({ shape: shape.map(changed) });
     }
 
-    /** Shows the model with an outline that is being dragged. */
-    private showDraft(silhouette: Silhouette): void {
+    /** Changes values of the document, by JSON pointer. */
+    private write(changes: Details): void {
+        const details = { ...this.history.value.details };
+        // A changed pointer is the last, so that it has its effect.
+        for (const [pointer, value] of Object.entries(changes)) {
+            delete details[pointer];
+            details[pointer] = value;
+        }
+        this.edited({ details });
+    }
+
+    private get stages(): readonly SpeciesStage[] {
+        return this.trace?.species.stages ?? [];
+    }
+
+    /** Changes the axes of all stages. */
+    private bend(changed: (old: AxisPoint[], stage: number) => AxisPoint[]): void {
+        const changes = this.stages.map(({ model }, stage): [string, Json] => [
+            modelPointer(stage, "axis"),
+            changed(axisOf(model), stage).map(({ x, y, z }) => ({ x, y, z })),
+        ]);
+        this.write(Object.fromEntries(changes));
+    }
+
+    /** Turns the axes of all stages into angles, whose directions are each individual's own. */
+    private straighten(): void {
+        const changes: Record<string, Json> = {};
+        const rounded = (value: number, most: number): number =>
+            Math.min(Math.round(10 * value) / 10, most);
+        for (const [stage, { model }] of this.stages.entries()) {
+            const { bend_deg: bend, lean_deg: lean } = anglesOf(axisOf(model));
+            const { deformation } = model;
+            const pointer = (member: string): string => modelPointer(stage, member);
+            changes[pointer("axis")] = [];
+            const bends = (deformation?.bend_deg ?? 0) + bend;
+            const leans = (deformation?.lean_deg ?? 0) + lean;
+            changes[pointer("deformation/bend_deg")] = rounded(bends, mostBend);
+            changes[pointer("deformation/lean_deg")] = rounded(leans, mostLean);
+        }
+        this.write(changes);
+        const { deformation } = this.stages[this.shownStage]?.model ?? {};
+        announce(
+            `The axis is straight: the stem bends by ${deformation?.bend_deg ?? 0}° and leans by ` +
+                `${deformation?.lean_deg ?? 0}°, each individual in a direction of its own.`,
+        );
+    }
+
+    private moveWhole(whole: boolean): void {
+        this.outline.wholeCurves = whole;
+        byId("whole-curve").setAttribute("aria-pressed", String(whole));
+        announce(whole ? "Whole curves are moved." : "Single points are moved.");
+    }
+
+    /** Shows the model with what is being dragged. */
+    private showDraft(change: Partial<SpeciesStage["model"]>): void {
+        const model = this.stages[this.shownStage]?.model;
+        if (model) this.live?.show({ ...model, ...change }, { draft: true });
+    }
+
+    /** Where the traced axis is on the photograph, in metres of the traced stage. */
+    private get tracedFrame(): AxisFrame | undefined {
         const { traced } = this;
-        const model = traced?.species.stages[traced.stage]?.model;
-        if (model) this.live?.show({ ...model, silhouette }, { draft: true });
+        const apex = traced?.species.stages[traced.stage]?.model.silhouette?.cap.at(-1)?.y;
+        if (!traced || !apex || traced.outline.axis.length < 2) return undefined;
+        return new AxisFrame(traced.outline.axis, apex);
     }
 
-    /** Lets the service judge an edited outline. */
+    /** Draws a model over the photograph, if that is wanted. */
+    private showOverPhoto(file: ArrayBuffer): void {
+        const model = this.stages[this.shownStage]?.model;
+        const { tracedFrame: frame, photograph } = this;
+        if (!this.overPhoto.shown || !model || !frame || !photograph) return;
+        const seen = windowOf(model, frame, photograph.stored);
+        this.overPhoto.show(file, seen).catch((error: unknown) => {
+            this.showFailure(asRequestFailed(error, "The model cannot be drawn over the photograph"));
+        });
+    }
+
+    /** Edits the outline of a stage, near enough to see it. */
+    private editStage(stage: number): void {
+        const before = this.shownStage;
+        this.shownStage = stage;
+        if (this.mode === "draw") this.edit("outline");
+        else this.showOutline();
+        this.showStage(stage);
+        if (stage !== before || this.mode === "draw") this.comeNear();
+        const { age, name } = this.stages[stage] ?? { age: 0, name: "" };
+        announce(`Age ${Math.round(age * 100)} %: ${name}.`);
+    }
+
+    private comeNear(): void {
+        const model = this.stages[this.shownStage]?.model;
+        const frame = this.tracedFrame;
+        const place = model && frame && placed(model, frame);
+        if (!model?.silhouette || !place) return;
+        const points = polylineOf(model.silhouette).flatMap((each) => [
+            place.frame.toPhoto(each, -1),
+            place.frame.toPhoto(each, 1),
+        ]);
+        const xs = points.map(([x]) => x);
+        const ys = points.map(([, y]) => y);
+        const [left, top] = [Math.min(...xs), Math.min(...ys)];
+        this.sketch.zoomTo({
+            x: left,
+            y: top,
+            width: Math.max(...xs) - left,
+            height: Math.max(...ys) - top,
+        });
+    }
+
+    /** Lets the service judge edited outlines, that of the shown stage first. */
     private async check(): Promise<void> {
         this.checking?.abort();
-        const { trace } = this;
-        const model = trace?.species.stages[trace.stage]?.model;
-        if (!trace || !model || (trace.certificate && !this.history.value.shape)) return;
+        const { trace, shownStage } = this;
+        const { shape, details } = this.history.value;
+        if (!trace || (trace.certificate && !shape && !details)) return;
         const checking = new AbortController();
         this.checking = checking;
+        const others = trace.species.stages.map((_, stage) => stage);
         try {
-            const { simple, method, problem } = await checkOutline(model, checking.signal);
-            if (checking.signal.aborted) return;
-            const certificate = { simple, method };
-            this.findings.show({ ...trace, certificate }, this.history.value);
-            if (problem) this.say("outline", problem.detail);
+            for (const stage of [shownStage, ...others.filter((one) => one !== shownStage)]) {
+                const { model, name } = trace.species.stages[stage] ?? {};
+                if (!model?.silhouette) continue;
+                const { simple, method, problem } = await checkOutline(model, checking.signal);
+                if (checking.signal.aborted) return;
+                if (stage === shownStage) {
+                    const certificate = { simple, method };
+                    const shown = { ...trace, certificate };
+                    this.findings.show(shown, this.history.value, shownStage);
+                }
+                if (!problem) continue;
+                const where = stage === shownStage ? "" : `At the age of ${name}: `;
+                return this.say("outline", where + problem.detail);
+            }
         } catch (error) {
             if (checking.signal.aborted) return;
             this.showFailure(asRequestFailed(error, "The outline cannot be checked"));
         }
     }
 
-    /** Shows the points of the outline in place of the lines. */
-    private edit(): void {
-        this.editing = true;
+    /** Shows the points of the outline or of the axis in place of the lines. */
+    private edit(mode: "outline" | "bend"): void {
+        this.mode = mode;
         this.sketch.idle = true;
         this.showOutline();
         this.showTools();
-        if (this.trace && this.shownStage !== this.trace.stage) this.showStage(this.trace.stage);
-        this.outline.focus();
+        (mode === "bend" ? this.axis : this.outline).focus();
     }
 
     private showOutline(): void {
-        const { trace, editing } = this;
-        const model = editing ? trace?.species.stages[trace.stage]?.model : undefined;
-        this.outline.show(model?.silhouette, trace?.outline.axis ?? []);
+        const model = this.stages[this.shownStage]?.model;
+        const silhouette = model?.silhouette;
+        const traced = this.tracedFrame;
+        const { mode } = this;
+        const isShown = mode !== "draw" && model && silhouette && traced;
+        this.outline.show(
+            isShown && mode === "outline" ? this.shownOutline(model, silhouette, traced) : undefined,
+        );
+        const axis = axisOf(model ?? {});
+        this.axis.show(isShown && mode === "bend" ? { axis, silhouette, traced } : undefined);
+    }
+
+    private shownOutline(
+        model: SpeciesStage["model"],
+        silhouette: Silhouette,
+        traced: AxisFrame,
+    ): ShownOutline {
+        const frame = placed(model, traced)?.frame ?? traced;
+        const neighbours = [-1, 1].flatMap((step) => {
+            const near = this.stages[this.shownStage + step]?.model;
+            const there = near && placed(near, traced);
+            if (!near?.silhouette || !there) return [];
+            return [{ silhouette: near.silhouette, frame: there.frame, older: step > 0 }];
+        });
+        const { photograph, trace } = this;
+        const isPhotographed = photograph?.drawable && this.shownStage === trace?.stage;
+        const measured = this.traced?.species.stages[this.shownStage]?.model.silhouette;
+        const sides = isPhotographed ? [trace.outline.left, trace.outline.right] : [];
+        return {
+            silhouette,
+            frame,
+            neighbours,
+            measured: [
+                ...sides.map((side) => side.map((place) => frame.fromPhoto(place))),
+                ...(isPhotographed && measured ? [polylineOf(measured)] : []),
+            ],
+        };
     }
 
     /** Shows the drawing that the history is at, and traces it. */
@@ -432,7 +734,9 @@ export class Designer {
         clearTimeout(this.saving);
         this.saving = setTimeout(() => {
             const { photograph } = this;
-            if (photograph) void saveDraft({ file: photograph.file, drawing: this.history.value });
+            const { past, future } = this.history.steps;
+            const drawing = this.history.value;
+            if (photograph) void saveDraft({ file: photograph.file, drawing, past, future });
         }, saveDelayMs);
     }
 
@@ -442,7 +746,7 @@ export class Designer {
     }
 
     private use(tool: Tool): void {
-        this.editing = false;
+        this.mode = "draw";
         this.sketch.idle = false;
         this.showOutline();
         this.sketch.tool = tool;
@@ -454,14 +758,21 @@ export class Designer {
         for (const button of byId("tools").children) {
             const name = (button as HTMLElement).dataset["tool"];
             const tool = tools.find((one) => one === name);
-            const pressed = tool ? !this.editing && tool === this.sketch.tool : this.editing;
+            const drawing = this.mode === "draw";
+            const pressed = tool ? drawing && tool === this.sketch.tool : name === this.mode;
             button.setAttribute("aria-pressed", String(pressed));
-            const done = tool ? strokesOf(gesture, tool).length > 0 : !!this.history.value.shape;
+            const { shape, details } = this.history.value;
+            const done = tool
+                ? strokesOf(gesture, tool).length > 0
+                : name === "outline"
+                  ? !!shape
+                  : Object.keys(details ?? {}).some((pointer) => pointer.endsWith("/axis"));
             button.classList.toggle("done", done);
-            if (!tool) (button as HTMLButtonElement).disabled = !this.trace;
+            const has = !!this.stages[this.shownStage]?.model.silhouette;
+            if (!tool) (button as HTMLButtonElement).disabled = !has;
         }
         this.showOrder();
-        byId("points").hidden = this.editing;
+        byId("points").hidden = this.mode !== "draw";
         if (this.photograph) this.table.show(gesture, this.sketch.tool, this.photograph.stored);
     }
 
@@ -469,9 +780,24 @@ export class Designer {
         const { tool, pending } = this.sketch;
         const { gesture } = this.history.value;
         const drawn = strokesOf(gesture, tool).length > 0;
-        if (this.editing) {
-            byId("sentence").textContent = "Drag a point, or move it by arrows";
+        byId("edit-tools").hidden = this.mode === "draw";
+        if (this.mode !== "draw") {
+            const model = this.stages[this.shownStage]?.model ?? {};
+            const points = axisOf(model).length;
+            const bends = this.mode === "bend";
+            const sentences = {
+                none: "Branches have no outline: see More",
+                outline: "Drag points or the curve",
+                bend: points > 0 ? "Drag a point to bend the stem" : "The stem is straight",
+            };
+            byId("sentence").textContent = sentences[model.silhouette ? this.mode : "none"];
             for (const id of ["stroke-tools", "clear", "trace-now"]) byId(id).hidden = true;
+            for (const id of ["add-point", "remove-point"])
+                byId(id).hidden = !model.silhouette || (bends && points === 0);
+            byId("whole-curve").hidden = bends || !model.silhouette;
+            byId("bend-axis").hidden = !bends || points > 0;
+            byId("fewer-points").hidden = !bends || points <= fewPoints;
+            byId("straighten").hidden = !bends || points === 0;
             return;
         }
         const moves = drawn && tool !== "keep" && tool !== "drop";
@@ -531,24 +857,25 @@ export class Designer {
     }
 
     private showTrace(traced: Trace | undefined): void {
-        const { shape } = this.history.value;
-        const trace = traced && withShape(traced, shape);
+        const trace = traced && withEdits(traced, this.history.value);
+        if (traced !== this.traced) this.shownStage = traced?.stage ?? 0;
         this.traced = traced;
         this.trace = trace;
         this.stale = false;
         this.sketch.showTrace(trace);
-        this.findings.show(trace, this.history.value);
-        if (!trace && this.editing && this.photograph?.drawable) this.use(this.missing() ?? "keep");
+        this.findings.show(trace, this.history.value, this.shownStage);
+        if (!trace && this.mode !== "draw" && this.photograph?.drawable)
+            this.use(this.missing() ?? "keep");
         this.showOutline();
         this.showTools();
-        void this.check();
         byId("panel-hint").hidden = !!trace;
         const height = trace && sizeOf(trace.species.stages[trace.stage]?.model ?? {})?.height;
         byId<HTMLInputElement>("height").placeholder =
             height === undefined ? "" : String(Math.round(height * 1000));
-        if (trace) return this.showStage(trace.stage);
+        if (trace) return this.showStage(this.shownStage);
         this.live?.cancel();
-        this.findings.showStages(undefined, 0);
+        this.overPhoto.clear();
+        this.strip.show(undefined, 0, undefined);
     }
 
     /** Shows the model of one stage of the species. */
@@ -557,7 +884,10 @@ export class Designer {
         if (!stage) return;
         this.state = "busy";
         this.shownStage = index;
-        this.findings.showStages(this.trace, index);
+        const photographed = this.photograph?.drawable ? this.trace?.stage : undefined;
+        this.strip.show(this.trace?.species, index, photographed);
+        this.findings.show(this.trace, this.history.value, index);
+        void this.check();
         this.file = undefined;
         byId<HTMLButtonElement>("download-glb").disabled = true;
         this.live?.show(stage.model, { refit: this.fresh });

@@ -5,6 +5,9 @@ import type { Drawing } from "./gesture";
 export interface Draft {
     file: Blob;
     drawing: Drawing;
+    /** Drawings before and after it, the nearest last. */
+    past?: readonly Drawing[];
+    future?: readonly Drawing[];
 }
 
 const store = "drafts";

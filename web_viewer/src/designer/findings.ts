@@ -25,10 +25,14 @@ const methods: Readonly<Record<string, string>> = {
 };
 
 /** Returns the rows of the list of numbers: name, value and what it means. An edited outline has no
- *  error to the photograph. */
-export function rowsOf(trace: Trace, edited = false): [string, string, string][] {
+ *  error to the photograph. The size is that of the shown stage. */
+export function rowsOf(
+    trace: Trace,
+    edited = false,
+    shown = trace.stage,
+): [string, string, string][] {
     const { angles, asymmetry_pct: asymmetry, certificate, error_pct: error, ring } = trace;
-    const size = sizeOf(trace.species.stages[trace.stage]?.model ?? {});
+    const size = sizeOf(trace.species.stages[shown]?.model ?? {});
     const rows: [string, string, string][] = [];
     const add = (name: string, value: string, meaning: string): void => {
         rows.push([name, value, meaning]);
@@ -63,7 +67,6 @@ export function rowsOf(trace: Trace, edited = false): [string, string, string][]
 
 export interface FindingsEvents {
     template: (id: string) => void;
-    stage: (index: number) => void;
 }
 
 export class Findings {
@@ -71,12 +74,12 @@ export class Findings {
         byId("template-auto").addEventListener("click", () => events.template("auto"));
     }
 
-    /** Shows a trace, or nothing. `template` is the chosen one. */
-    show(trace: Trace | undefined, { template, shape }: Drawing): void {
+    /** Shows a trace, or nothing; the size is that of a stage. */
+    show(trace: Trace | undefined, { template, shape, details }: Drawing, stage: number): void {
         for (const id of ["findings", "actions"]) byId(id).hidden = !trace;
         if (!trace) return;
         byId("found-numbers").replaceChildren(
-            ...rowsOf(trace, !!shape).flatMap(([name, value, meaning]) => [
+            ...rowsOf(trace, !!shape || !!details, stage).flatMap(([name, value, meaning]) => [
                 make("dt", {}, name),
                 make("dd", { title: meaning }, value),
             ]),
@@ -96,24 +99,6 @@ export class Findings {
         byId("nearest-used").textContent = auto
             ? `All else comes from our ${lender}, the most alike of its form.`
             : `All else comes from our ${lender}.`;
-    }
-
-    /** Shows which stage of the species is on the stage. */
-    showStages(trace: Trace | undefined, shown: number): void {
-        const stages = trace?.species.stages ?? [];
-        byId("ages").hidden = stages.length < 2;
-        byId("age-list").replaceChildren(
-            ...stages.map(({ age, name }, index) => {
-                const own = index === trace?.stage;
-                const button = make(
-                    "button",
-                    { type: "button", "aria-pressed": String(index === shown), title: name },
-                    own && trace.nearest.length > 0 ? "photograph" : `${Math.round(age * 100)} %`,
-                );
-                button.addEventListener("click", () => this.events.stage(index));
-                return button;
-            }),
-        );
     }
 
     private button(nearest: Nearest, used: boolean, auto: boolean): HTMLLIElement {

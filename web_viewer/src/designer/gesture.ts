@@ -1,6 +1,7 @@
 // What a person draws on a photograph: lines in its pixels, as the service reads them. All values
 // are immutable, so that undo restores whole gestures.
 
+import type { Details } from "./details";
 import type { Silhouette } from "./outline";
 
 /** A place in pixels of the stored photograph, from its upper left corner. */
@@ -33,6 +34,8 @@ export interface Drawing {
     heightMm: number | undefined;
     /** The outlines of all stages once a point was moved; undefined as traced. */
     shape?: readonly Silhouette[] | undefined;
+    /** Other changes of the species' document. */
+    details?: Details | undefined;
 }
 
 export interface Extent {

@@ -7,6 +7,8 @@ import type { Stage } from "../stage";
 export interface LiveModelEvents {
     progress: (progress: LoadProgress) => void;
     failed: (error: RequestFailed) => void;
+    /** The bytes of a model have arrived, also of a draft. */
+    arrived: (file: ArrayBuffer) => void;
     /** A final model is on the stage, and these are the bytes of its file. */
     shown: (file: ArrayBuffer) => void;
 }
@@ -74,6 +76,7 @@ export class LiveModel {
                 },
             );
             if (!current()) return;
+            this.events.arrived(bytes);
             const model = await parseModel(bytes.slice(0), response.url);
             const shown = await this.stage.show(model, refit, current);
             if (shown && !draft) this.events.shown(bytes);

@@ -16,7 +16,7 @@ export interface Silhouette {
     margin?: string;
 }
 
-const curves = ["stem", "hymenium", "cap"] as const;
+export const curves = ["stem", "hymenium", "cap"] as const;
 export type Curve = (typeof curves)[number];
 
 /** A control point by its place; one that two curves share is that of the first. */
@@ -38,6 +38,13 @@ export const curveNames: Readonly<Record<Curve, string>> = {
 const closest = 2e-9;
 
 const bisections = 10;
+
+/** A curve has at most so many points, as the service allows. */
+export const mostOfCurve = 32;
+const mostControls = 3 * mostOfCurve;
+
+/** A new point is at least this share of a piece away from the points of the piece. */
+const leastShare = 0.1;
 
 /** Part of the way to a crossing that is not used, so that the shape can still be made. */
 const reserve = 0.01;
@@ -280,40 +287,145 @@ export interface Move {
     stopped: [Curve, Curve | "axis"] | undefined;
 }
 
-/** Moves a point as far towards a place as the outline stays simple. */
-export function moved(silhouette: Silhouette, at: number, to: OutlinePoint): Move {
-    const whole = withControl(silhouette, at, to);
+/** Returns the outline with points moved by a shift times their weights; foot and apex stay on the
+ *  axis. */
+function shifted(silhouette: Silhouette, weights: readonly number[], by: OutlinePoint): Silhouette {
+    const controls = controlsOf(silhouette);
+    const last = controls.length - 1;
+    return rebuilt(
+        silhouette,
+        controls.map((control, index) => {
+            const weight = weights[index] ?? 0;
+            if (weight === 0) return control;
+            const onAxis = index === 0 || index === last;
+            const r = onAxis ? 0 : Math.max(control.r + weight * by.r, 0);
+            return { ...control, r, y: control.y + weight * by.y };
+        }),
+    );
+}
+
+/** Moves points by a shift times their weights, as far as the outline stays simple. */
+export function dragged(
+    silhouette: Silhouette,
+    weights: readonly number[],
+    by: OutlinePoint,
+): Move {
+    const part = (share: number): Silhouette =>
+        shifted(silhouette, weights, { r: share * by.r, y: share * by.y });
+    const whole = part(1);
     const stopped = crossingOf(whole);
-    const from = controlsOf(silhouette)[at];
     // What crosses itself already may be moved freely, so that it can be mended.
-    if (!stopped || !from || crossingOf(silhouette)) return { silhouette: whole, stopped };
+    if (!stopped || crossingOf(silhouette)) return { silhouette: whole, stopped };
     let best = silhouette;
     let [low, high] = [0, 1];
     for (let step = 0; step < bisections; ++step) {
         const share = (low + high) / 2;
-        const place = { r: from.r + share * (to.r - from.r), y: from.y + share * (to.y - from.y) };
-        const tried = withControl(silhouette, at, place);
+        const tried = part(share);
         if (crossingOf(tried)) high = share;
         else [low, best] = [share, tried];
     }
-    const near = low * (1 - reserve);
-    const place = { r: from.r + near * (to.r - from.r), y: from.y + near * (to.y - from.y) };
-    const nearly = withControl(silhouette, at, place);
+    const nearly = part(low * (1 - reserve));
     return { silhouette: crossingOf(nearly) ? best : nearly, stopped };
 }
 
-/** Returns the outline with a point more, on the curve in the middle of the piece that begins at a
+/** Returns weights that move one point of an outline alone. */
+export function weightsOfPoint(at: number): number[] {
+    return Array.from({ length: at + 1 }, (_, index) => (index === at ? 1 : 0));
+}
+
+/** Returns weights that move the curve at a share of the piece behind a point: both points of the
+ *  piece follow, the nearer one further. */
+export function weightsOfPiece(at: number, share: number): number[] {
+    return [...Array.from({ length: at }, () => 0), 1 - share, share];
+}
+
+/** Returns weights that move a whole curve, with the points that it shares. */
+export function weightsOfCurve(silhouette: Silhouette, curve: Curve): number[] {
+    const controls = controlsOf(silhouette);
+    return controls.map(({ curve: own }, index) =>
+        own === curve || (controls[index + 1]?.curve === curve && own !== curve) ? 1 : 0,
+    );
+}
+
+/** Moves a point as far towards a place as the outline stays simple. */
+export function moved(silhouette: Silhouette, at: number, to: OutlinePoint): Move {
+    const from = controlsOf(silhouette)[at];
+    if (!from) return { silhouette, stopped: undefined };
+    const by = { r: to.r - from.r, y: to.y - from.y };
+    return dragged(silhouette, weightsOfPoint(at), by);
+}
+
+/** Returns the point that another curve begins at, for walking from curve to curve. */
+export function startOfCurve(silhouette: Silhouette, at: number, step: 1 | -1): number {
+    const controls = controlsOf(silhouette);
+    const present = curves.filter((curve) => silhouette[curve].length > 0);
+    const own = controls[at]?.curve ?? "stem";
+    const place = present.indexOf(own) + step;
+    const curve = present[Math.min(Math.max(place, 0), present.length - 1)];
+    // The first point of a curve that is its own: the shared one belongs to the curve before.
+    const found = controls.findIndex((one) => one.curve === curve);
+    return found < 0 ? at : found;
+}
+
+export interface OnCurve {
+    /** Control point that the piece begins at, and the share of the piece. */
+    span: number;
+    share: number;
+    place: OutlinePoint;
+    /** Distance from what was looked for, metres. */
+    away: number;
+}
+
+/** Returns the nearest place of the outline. */
+export function nearestOn(silhouette: Silhouette, { r, y }: OutlinePoint): OnCurve {
+    const pieces = 24;
+    let best: OnCurve = { span: 0, share: 0, place: { r: 0, y: 0 }, away: Infinity };
+    for (const segment of segmentsOf(silhouette))
+        for (let i = 0; i <= pieces; ++i) {
+            const place = placeOn(segment, i / pieces);
+            const away = Math.hypot(place.r - r, place.y - y);
+            if (away < best.away)
+                best = { span: segment.span, share: i / pieces, place: { r: place.r, y: place.y }, away };
+        }
+    return best;
+}
+
+/** Returns the nearest place of polylines and of the ground that is within a distance, undefined if
+ *  none is. All lengths are metres. */
+export function snapped(
+    place: OutlinePoint,
+    lines: readonly (readonly OutlinePoint[])[],
+    reach: number,
+): OutlinePoint | undefined {
+    let best = Math.abs(place.y) <= reach ? { r: place.r, y: 0 } : undefined;
+    let least = best ? Math.abs(place.y) : reach;
+    for (const line of lines)
+        line.forEach((to, index) => {
+            const from = line[index - 1];
+            if (!from) return;
+            const [dr, dy] = [to.r - from.r, to.y - from.y];
+            const square = dr * dr + dy * dy;
+            const along = (place.r - from.r) * dr + (place.y - from.y) * dy;
+            const share = square > 0 ? Math.min(Math.max(along / square, 0), 1) : 0;
+            const near = { r: from.r + share * dr, y: from.y + share * dy };
+            const away = Math.hypot(near.r - place.r, near.y - place.y);
+            if (away <= least) [best, least] = [near, away];
+        });
+    return best;
+}
+
+/** Returns the outline with a point more, on the curve at a share of the piece that begins at a
  *  control point. */
-export function withInserted(silhouette: Silhouette, at: number): Silhouette {
+export function withInserted(silhouette: Silhouette, at: number, share = 0.5): Silhouette {
     const controls = controlsOf(silhouette);
     const next = controls[at + 1];
-    const middle = polylineOf(silhouette, 2).find(
-        ({ span }, index) => span === at && index % 2 === 1,
-    );
-    if (!next || !middle) return silhouette;
-    controls.splice(at + 1, 0, { ...next, r: middle.r, y: middle.y });
+    const segment = segmentsOf(silhouette)[at];
+    if (!next || !segment || controls.length >= mostControls) return silhouette;
+    const { r, y } = placeOn(segment, Math.min(Math.max(share, leastShare), 1 - leastShare));
+    controls.splice(at + 1, 0, { ...next, r, y });
     // Of the curve the new point is an inner one: only the last point of a curve is shared.
-    return rebuilt(silhouette, controls);
+    const more = rebuilt(silhouette, controls);
+    return more[next.curve].length > mostOfCurve ? silhouette : more;
 }
 
 /** Returns true for a point that can be removed: it is neither shared by two curves nor on the
@@ -338,22 +450,24 @@ export class AxisFrame {
     /** Pixels of the photograph per metre. */
     readonly scale: number;
 
-    /** `height` of the apex above the foot, metres; `axis` in pixels, at least two points. */
+    /** `height` of the last point of the axis and `base` of its first, metres; `axis` in pixels, at
+     *  least two points. */
     constructor(
         private readonly axis: readonly Point[],
         height: number,
+        private readonly base = 0,
     ) {
         let total = 0;
         axis.forEach((point, index) => {
             const before = axis[index - 1];
             if (before) this.lengths.push((total += distance(before, point)));
         });
-        this.scale = total / height;
+        this.scale = total / (height - base);
     }
 
     /** Returns a place of the outline in pixels, on the left (-1) or on the right (1). */
     toPhoto({ r, y }: OutlinePoint, on: -1 | 1): Point {
-        const along = y * this.scale;
+        const along = (y - this.base) * this.scale;
         let i = 0;
         while (i + 2 < this.axis.length && (this.lengths[i + 1] ?? 0) < along) ++i;
         const [from, [ux, uy]] = this.piece(i);
@@ -376,7 +490,8 @@ export class AxisFrame {
             const away = Math.hypot(dx - along * ux, dy - along * uy);
             if (away >= least) continue;
             least = away;
-            best = { r: away / this.scale, y: ((this.lengths[i] ?? 0) + along) / this.scale };
+            const y = this.base + ((this.lengths[i] ?? 0) + along) / this.scale;
+            best = { r: away / this.scale, y };
         }
         return best;
     }

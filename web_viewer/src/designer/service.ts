@@ -1,5 +1,7 @@
 // The service's part of the designer: photographs that it forgets after a while, and traces.
 import { RequestFailed, send } from "../http";
+import { axisOf } from "./axis_line";
+import { withDetails } from "./details";
 import type { Silhouette } from "./outline";
 import { orderOf, type Drawing, type Extent, type Point } from "./gesture";
 
@@ -20,7 +22,11 @@ export interface Nearest {
 export interface Stage {
     age: number;
     name: string;
-    model: { silhouette?: Silhouette; axis?: unknown };
+    model: {
+        silhouette?: Silhouette;
+        axis?: unknown;
+        deformation?: { bend_deg?: number; lean_deg?: number };
+    };
 }
 
 export interface Species {
@@ -145,9 +151,11 @@ export interface OutlineCheck {
 
 /** Returns what the service says about an outline: it has the last word. */
 export async function checkOutline(
-    { silhouette, axis }: Stage["model"],
+    model: Stage["model"],
     signal: AbortSignal,
 ): Promise<OutlineCheck> {
+    const { silhouette } = model;
+    const axis = axisOf(model);
     const response = await send("v1/outlines/check", {
         method: "POST",
         headers: { "Content-Type": "application/json" },
@@ -155,6 +163,12 @@ export async function checkOutline(
         signal,
     });
     return (await response.json()) as OutlineCheck;
+}
+
+/** Returns a trace whose species has all changes of a drawing. */
+export function withEdits(trace: Trace, { shape, details }: Drawing): Trace {
+    const shaped = withShape(trace, shape);
+    return details ? { ...shaped, species: withDetails(shaped.species, details) } : shaped;
 }
 
 /** Returns a trace whose stages have these outlines. */

@@ -21,7 +21,65 @@ export interface SketchEvents {
     drawn: (gesture: Gesture) => void;
     /** Points of a stroke that is not complete were placed or taken back. */
     pending: (count: number) => void;
+    /** Two fingers zoom: what one of them began is given up. */
+    pinching: () => void;
     said: (text: string) => void;
+}
+
+/** The part of the picture in the window, pixels of the picture. */
+export interface View {
+    x: number;
+    y: number;
+    width: number;
+    height: number;
+}
+
+/** How far one can come nearer. */
+const mostZoom = 16;
+const zoomStep = 1.4;
+
+/** Returns a view that is nearer by a factor, with a place of the picture where it was. */
+export function zoomed(view: View, extent: Extent, factor: number, [x, y]: Point): View {
+    const least = extent.width / mostZoom;
+    const width = Math.min(Math.max(view.width / factor, least), extent.width);
+    const scale = width / view.width;
+    const height = (width * extent.height) / extent.width;
+    return limited(
+        { x: x - (x - view.x) * scale, y: y - (y - view.y) * scale, width, height },
+        extent,
+    );
+}
+
+/** Returns a view that is inside of the picture. */
+function limited(view: View, { width, height }: Extent): View {
+    return {
+        ...view,
+        x: Math.min(Math.max(view.x, 0), width - view.width),
+        y: Math.min(Math.max(view.y, 0), height - view.height),
+    };
+}
+
+/** Returns the view that has a box in it with a margin, in the shape of the picture. */
+export function viewOf(box: View, extent: Extent): View {
+    const margin = 1.3;
+    const width = Math.min(
+        Math.max(
+            box.width * margin,
+            (box.height * margin * extent.width) / extent.height,
+            extent.width / mostZoom,
+        ),
+        extent.width,
+    );
+    const height = (width * extent.height) / extent.width;
+    return limited(
+        {
+            x: box.x + box.width / 2 - width / 2,
+            y: box.y + box.height / 2 - height / 2,
+            width,
+            height,
+        },
+        extent,
+    );
 }
 
 /** Movement of the pointer that makes a line of a click, pixels of the screen. */
@@ -56,6 +114,7 @@ function corners([a, b]: Stroke): Stroke {
 
 export class Sketch {
     private readonly element = byId<HTMLElement & SVGSVGElement>("sketch");
+    private readonly content = draw("g", { id: "sketch-content" });
     private readonly image = draw("image");
     private readonly traced = draw("g", { class: "traced" });
     private readonly strokes = draw("g", { class: "strokes" });
@@ -69,11 +128,17 @@ export class Sketch {
     private press: Press | undefined;
     private cursor: Point = [0, 0];
     private idle_ = false;
+    private view: View = { x: 0, y: 0, width: 1, height: 1 };
+    private readonly fingers = new Map<number, { x: number; y: number }>();
+    private picking: ((place: Point | undefined) => void) | undefined;
 
     constructor(private readonly events: SketchEvents) {
         const { element } = this;
-        element.append(this.image, this.traced, this.strokes, this.unfinished, this.crosshair);
+        const { content } = this;
+        element.append(content);
+        content.append(this.image, this.traced, this.strokes, this.unfinished, this.crosshair);
         this.crosshair.append(draw("path", { class: "casing" }), draw("path", { class: "line" }));
+        this.listenToFingers();
         element.addEventListener("pointerdown", (event) => this.down(event));
         element.addEventListener("pointermove", (event) => this.move(event));
         element.addEventListener("pointerup", (event) => this.up(event));
@@ -91,7 +156,9 @@ export class Sketch {
     open(address: string, extent: Extent): void {
         this.extent = extent;
         const { width, height } = extent;
-        this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
+        this.pick(undefined);
+        this.view = { x: 0, y: 0, width, height };
+        this.applyView();
         this.image.setAttribute("href", address);
         this.image.setAttribute("width", String(width));
         this.image.setAttribute("height", String(height));
@@ -132,11 +199,140 @@ export class Sketch {
     }
 
     /** Returns where an event is, in pixels of the photograph and parts of them. */
-    exactly({ clientX, clientY }: PointerEvent): Point {
+    exactly({ clientX, clientY }: { clientX: number; clientY: number }): Point {
         const matrix = this.element.getScreenCTM();
         if (!matrix) return [0, 0];
         const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(matrix.inverse());
         return [x, y];
+    }
+
+    /** Comes nearer or goes away; about the middle, or about a place of the picture. */
+    zoom(factor: number, about?: Point): void {
+        const { x, y, width, height } = this.view;
+        const middle: Point = [x + width / 2, y + height / 2];
+        this.view = zoomed(this.view, this.extent, factor, about ?? middle);
+        this.applyView();
+    }
+
+    zoomIn(): void {
+        this.zoom(zoomStep);
+    }
+
+    zoomOut(): void {
+        this.zoom(1 / zoomStep);
+    }
+
+    /** Shows the whole picture. */
+    zoomWhole(): void {
+        this.view = { x: 0, y: 0, width: this.extent.width, height: this.extent.height };
+        this.applyView();
+    }
+
+    /** Comes near to a box if it would be small, and shows the whole picture otherwise. */
+    zoomTo(box: View): void {
+        const whole: View = { x: 0, y: 0, width: this.extent.width, height: this.extent.height };
+        const near = viewOf(box, this.extent);
+        this.view = near.width < 0.5 * whole.width ? near : whole;
+        this.applyView();
+    }
+
+    /** Moves the window so that a place is in it. */
+    reveal([x, y]: Point): void {
+        const { view } = this;
+        const inView =
+            x > view.x && x < view.x + view.width && y > view.y && y < view.y + view.height;
+        if (inView) return;
+        const moved = { ...view, x: x - view.width / 2, y: y - view.height / 2 };
+        this.view = limited(moved, this.extent);
+        this.applyView();
+    }
+
+    private applyView(): void {
+        const { x, y, width, height } = this.view;
+        this.element.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+        this.element.classList.toggle("near", width < this.extent.width);
+        this.scale();
+    }
+
+    /** Lets the next click, or Enter at the crosshair, choose a place of the picture; `done` gets
+     *  undefined if it is given up. */
+    pick(done: ((place: Point | undefined) => void) | undefined): void {
+        const { picking } = this;
+        this.picking = undefined;
+        picking?.(undefined);
+        this.picking = done;
+        this.element.classList.toggle("picking", !!done);
+        if (done) this.element.focus();
+    }
+
+    private picked(place: Point): void {
+        const done = this.picking;
+        this.picking = undefined;
+        this.element.classList.remove("picking");
+        done?.(place);
+    }
+
+    /** Two fingers zoom and move the picture; the wheel does with Ctrl, as touch pads send it. */
+    private listenToFingers(): void {
+        const { element, fingers } = this;
+        element.addEventListener(
+            "pointerdown",
+            (event) => {
+                if (this.picking && event.isPrimary && event.button === 0) {
+                    event.stopPropagation();
+                    event.preventDefault();
+                    return this.picked(this.toPicture(event));
+                }
+                if (event.pointerType !== "touch") return;
+                if (event.isPrimary) fingers.clear();
+                fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+                if (fingers.size !== 2) return;
+                this.letGo();
+                this.events.pinching();
+            },
+            true,
+        );
+        element.addEventListener(
+            "pointermove",
+            (event) => {
+                if (!fingers.has(event.pointerId)) return;
+                const before = [...fingers.values()];
+                fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+                if (fingers.size < 2) return;
+                event.stopPropagation();
+                this.pinch(before, [...fingers.values()]);
+            },
+            true,
+        );
+        const gone = (event: PointerEvent): void => {
+            fingers.delete(event.pointerId);
+        };
+        for (const name of ["pointerup", "pointercancel"] as const)
+            element.addEventListener(name, gone, true);
+        element.addEventListener(
+            "wheel",
+            (event) => {
+                if (!event.ctrlKey) return;
+                event.preventDefault();
+                this.zoom(2 ** (-event.deltaY / 120), this.exactly(event));
+            },
+            { passive: false },
+        );
+    }
+
+    private pinch(
+        [a, b]: readonly { x: number; y: number }[],
+        [c, d]: readonly { x: number; y: number }[],
+    ): void {
+        if (!a || !b || !c || !d) return;
+        const apart = Math.hypot(a.x - b.x, a.y - b.y);
+        const factor = apart > 0 ? Math.hypot(c.x - d.x, c.y - d.y) / apart : 1;
+        const middle = this.exactly({ clientX: (a.x + b.x) / 2, clientY: (a.y + b.y) / 2 });
+        const to = this.exactly({ clientX: (c.x + d.x) / 2, clientY: (c.y + d.y) / 2 });
+        const [dx, dy] = [to[0] - middle[0], to[1] - middle[1]];
+        const shifted = { ...this.view, x: this.view.x - dx, y: this.view.y - dy };
+        this.view = zoomed(shifted, this.extent, factor, middle);
+        this.applyView();
     }
 
     get pending(): number {
@@ -145,7 +341,7 @@ export class Sketch {
 
     /** Shows what the service has measured, over the photograph. */
     showTrace(trace: Trace | undefined): void {
-        if (!trace) return this.traced.replaceChildren();
+        if (!trace || trace.outline.left.length === 0) return this.traced.replaceChildren();
         const { outline, marks } = trace;
         const border = pathOf([...outline.left, ...[...outline.right].reverse()], true);
         const { width, height } = this.extent;
@@ -212,7 +408,7 @@ export class Sketch {
     }
 
     /** Pixels of the picture per pixel of the screen. */
-    private get ratio(): number {
+    get ratio(): number {
         return 1 / (this.element.getScreenCTM()?.a || 1);
     }
 
@@ -290,7 +486,25 @@ export class Sketch {
             ArrowDown: [0, 1],
         };
         const step = steps[event.key];
-        if (event.ctrlKey || event.metaKey || event.altKey || this.idle_) return;
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const zooms: Record<string, () => void> = {
+            "+": () => this.zoomIn(),
+            "=": () => this.zoomIn(),
+            "-": () => this.zoomOut(),
+            "0": () => this.zoomWhole(),
+        };
+        const zoom = zooms[event.key];
+        if (zoom) {
+            event.preventDefault();
+            return zoom();
+        }
+        if (this.idle_ && !this.picking) return;
+        if (this.picking && (event.key === "Enter" || event.key === "Escape")) {
+            event.preventDefault();
+            if (event.key === "Enter") this.picked(this.cursor);
+            else this.pick(undefined);
+            return;
+        }
         if (step) {
             const far = event.shiftKey ? 10 : 1;
             const [x, y] = this.cursor;
@@ -312,6 +526,7 @@ export class Sketch {
     private showCursor(): void {
         const [x, y] = this.cursor;
         this.crosshair.setAttribute("transform", `translate(${x} ${y})`);
+        if (this.element.classList.contains("keys")) this.reveal(this.cursor);
         this.place.textContent = `${x}, ${y}`;
     }
 

@@ -10,6 +10,9 @@ const margin = 60;
 /** The age at which most stages are mature. */
 const matureAge = 0.6;
 
+/** Height that a coral has if its file states none, metres. */
+const branchHeight = 0.08;
+
 /** Metres, as the service takes them. */
 function isWithin(value: unknown, least: number, most: number): boolean {
     return typeof value === "number" && value >= least && value <= most;
@@ -45,9 +48,12 @@ export function readSpecies(text: string): Species {
     const stages = species?.stages;
     if (!Array.isArray(stages) || stages.length === 0) return refuse("/stages has no stage.");
     stages.forEach((stage, index) => {
-        if (!isOutline(stage?.model?.silhouette))
+        const model = stage?.model as { form?: unknown; silhouette?: unknown } | undefined;
+        // Corals and antlers are branches along axes: the rest of their document can be edited.
+        const isBranched = model?.form === "branched" && model.silhouette === undefined;
+        if (!isBranched && !isOutline(model?.silhouette))
             refuse(
-                `/stages/${index}/model/silhouette has no stem and cap of points in metres; other forms have no outline.`,
+                `/stages/${index}/model/silhouette has no stem and cap of points in metres; only the branched form has no outline.`,
             );
         if (!Number.isFinite(stage.age)) refuse(`/stages/${index}/age is no number.`);
     });
@@ -63,27 +69,28 @@ function stageOf({ stages }: Species): number {
 }
 
 export class SpeciesFile implements Source {
-    readonly stored: Extent & { alpha: boolean } = { width: side, height: side, alpha: true };
     readonly drawable = false;
-    private readonly silhouette: Silhouette;
-    private readonly axis: Point[];
+    readonly stored: Extent & { alpha: boolean } = { width: side, height: side, alpha: true };
+    private readonly silhouette: Silhouette | undefined;
+    private readonly axis: [Point, Point];
     private readonly frame: AxisFrame;
+    private opened: Trace | undefined;
 
     private constructor(
         readonly file: Blob,
         private readonly species: Species,
     ) {
-        const { silhouette } = species.stages[stageOf(species)]?.model ?? {};
-        this.silhouette = silhouette ?? { stem: [], hymenium: [], cap: [] };
-        const line = polylineOf(this.silhouette);
-        const [low, high] = [Math.min, Math.max].map((most) => most(...line.map(({ y }) => y))) as [
-            number,
-            number,
-        ];
+        const model = species.stages[stageOf(species)]?.model as
+            (Species["stages"][number]["model"] & { limbs?: { height?: number } }) | undefined;
+        this.silhouette = model?.silhouette;
+        const tall = model?.limbs?.height ?? branchHeight;
+        const line = this.silhouette ? polylineOf(this.silhouette) : [{ r: tall / 3, y: tall }];
+        const heights = line.map(({ y }) => y);
+        const [low, high] = [Math.min(0, ...heights), Math.max(...heights)];
         const wide = 2 * Math.max(...line.map(({ r }) => r));
         const scale = (side - 2 * margin) / Math.max(high - low, wide);
         const ground = side / 2 + ((high + low) / 2) * scale;
-        const apex = this.silhouette.cap.at(-1)?.y ?? high;
+        const apex = this.silhouette?.cap.at(-1)?.y ?? high;
         this.axis = [
             [side / 2, ground],
             [side / 2, ground - apex * scale],
@@ -111,13 +118,19 @@ export class SpeciesFile implements Source {
     }
 
     trace(): Promise<Trace> {
-        const line = polylineOf(this.silhouette);
-        const controls = controlsOf(this.silhouette);
+        this.opened ??= this.read();
+        return Promise.resolve(this.opened);
+    }
+
+    private read(): Trace {
+        const { silhouette } = this;
+        const line = silhouette ? polylineOf(silhouette) : [];
+        const controls = silhouette ? controlsOf(silhouette) : [];
         const last = (curve: string): Point[] => {
             const end = controls.find((one) => one.curve === curve && one.index === one.of - 1);
             return end ? [this.frame.toPhoto(end, -1), this.frame.toPhoto(end, 1)] : [];
         };
-        return Promise.resolve({
+        return {
             outline: {
                 left: line.map((place) => this.frame.toPhoto(place, -1)),
                 right: line.map((place) => this.frame.toPhoto(place, 1)),
@@ -130,7 +143,7 @@ export class SpeciesFile implements Source {
             warnings: [],
             stage: stageOf(this.species),
             species: this.species,
-        });
+        };
     }
 
     forget(): void {
