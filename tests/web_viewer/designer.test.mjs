@@ -442,6 +442,391 @@ test("the JSON of a species is opened, edited and saved again", async () => {
     expectNoProblems(log);
 });
 
+const speciesOf = async (page) => JSON.parse((await saved(page, "#download-json")).bytes.toString());
+
+/** Grows every stage of a species as the service would. */
+async function expectGrown({ stages }) {
+    for (const { model, name } of stages) {
+        const response = await fetch(`${base}/v1/mushrooms.glb`, {
+            method: "POST",
+            headers: { "Content-Type": "application/json" },
+            body: JSON.stringify({ model, lod: 3, textures: "none" }),
+        });
+        assert.equal(response.status, 200, `${name}: ${response.status < 400 || (await response.text())}`);
+        await response.arrayBuffer();
+    }
+}
+
+async function start(page, id) {
+    await page.locator("#start-species:visible, #another-species:visible").press("Enter");
+    await page.locator("#species-search").fill(id.replaceAll("_", " "));
+    const button = page.locator(`#species-list button[data-species="${id}"]`);
+    await button.press("Enter");
+    await page.locator("#species-dialog").waitFor({ state: "hidden" });
+    await page.locator("#panel-found dd", { hasText: "from the file of a species" }).waitFor();
+    await at(page, "ready");
+}
+
+const countsOf = ({ stages }) =>
+    stages.map(({ model: { silhouette } }) =>
+        ["stem", "hymenium", "cap"].map((curve) => silhouette[curve].length).join(),
+    );
+
+test("all stages stand side by side, each has its own outline, and all have the same points", async () => {
+    const { page, log } = await open({ width: 1400, height: 860 });
+    await start(page, "amanita_muscaria");
+    const before = await speciesOf(page);
+    const stages = page.locator("#stage-list button");
+    assert.equal(await stages.count(), before.stages.length);
+    await page.locator('#stages[data-pictures="complete"]').waitFor({ timeout: 120_000 });
+    assert.equal(await page.locator("#stage-list .refused").count(), 0);
+    const drawn = await page.locator("#stage-list canvas").evaluateAll((all) =>
+        all.map((canvas) => {
+            const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            return data.filter((value, index) => index % 4 === 3 && value > 128).length;
+        }),
+    );
+    for (const pixels of drawn) assert.ok(pixels > 1000, `${pixels} pixels of a small picture`);
+    await stages.nth(1).click();
+    assert.equal(await stages.nth(1).getAttribute("aria-pressed"), "true");
+    assert.equal(await page.locator("#sketch .neighbour").count(), 2, "younger and older");
+    const point = page.locator('.handle[role=button][aria-label^="cap, point 2 "]');
+    await point.focus();
+    await page.keyboard.press("Alt+ArrowRight");
+    await at(page, "ready");
+    const moved = await speciesOf(page);
+    const cap = ({ stages }, stage) => stages[stage].model.silhouette.cap;
+    assert.ok(cap(moved, 1)[1].r > cap(before, 1)[1].r);
+    cap(moved, 1)[1] = cap(before, 1)[1];
+    assert.deepEqual(moved, before, "nothing else has changed");
+    await point.focus();
+    await page.keyboard.press("Insert");
+    await at(page, "ready");
+    const more = await speciesOf(page);
+    assert.equal(new Set(countsOf(more)).size, 1, "as many points in all stages");
+    assert.notDeepEqual(countsOf(more), countsOf(before));
+    await expectGrown(more);
+    await point.focus();
+    const label = () => page.evaluate(() => document.activeElement.getAttribute("aria-label"));
+    await page.keyboard.press("[");
+    assert.match(await label(), /^lower face, point 2 /);
+    await page.keyboard.press("[");
+    assert.match(await label(), /^stem, point 1 /);
+    await page.keyboard.press("]");
+    await page.keyboard.press("]");
+    assert.match(await label(), /^cap, point 2 /);
+    // Space lets arrows move the whole curve.
+    await page.keyboard.press(" ");
+    assert.equal(await page.locator("#whole-curve").getAttribute("aria-pressed"), "true");
+    await page.keyboard.press("Alt+ArrowUp");
+    await page.keyboard.press(" ");
+    await at(page, "ready");
+    const raised = await speciesOf(page);
+    const rise = cap(raised, 1).map(({ y }, index) => y - cap(more, 1)[index].y);
+    expectNear(rise, rise.map(() => rise[0]), 1e-9);
+    assert.ok(rise[0] > 0);
+    await page.waitForTimeout(600);
+    await page.reload();
+    await page.locator("#sketch .edited").waitFor();
+    await at(page, "ready");
+    assert.deepEqual(await speciesOf(page), raised, "a reload has the draft again");
+    await page.locator(".handle[tabindex='0']").focus();
+    for (let step = 0; step < 3; ++step) await page.keyboard.press("Control+z");
+    await at(page, "ready");
+    assert.deepEqual(await speciesOf(page), before, "undo survives a reload");
+    assert.equal(await page.locator("#undo").isDisabled(), true);
+    await page.screenshot({ path: path.join(folder, "designer_stages.png") });
+    expectNoProblems(log);
+});
+
+test("the curve itself is dragged, and a double click adds a point to it", async () => {
+    const { page, log } = await open({ width: 1400, height: 860 });
+    await start(page, "boletus_edulis");
+    const before = await speciesOf(page);
+    const stage = before.stages.findIndex(({ age }) => age === 0.6);
+    /** Returns a place of the right half of the curve between two points of the cap. */
+    const between = async () => {
+        const [a, b] = await Promise.all(
+            [2, 3].map(async (index) => {
+                const handle = page.locator(`.handle[role=button][aria-label^="cap, point ${index} "] .knob`);
+                const { x, y, width, height } = await handle.boundingBox();
+                return { x: x + width / 2, y: y + height / 2 };
+            }),
+        );
+        const middle = { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 };
+        return page.evaluate(({ x, y }) => {
+            for (let out = 0; out < 40; ++out)
+                for (const by of [out, -out])
+                    if (document.elementFromPoint(x + by, y)?.classList.contains("grab"))
+                        return { x: x + by, y };
+        }, middle);
+    };
+    const place = await between();
+    await page.mouse.dblclick(place.x, place.y);
+    await at(page, "ready");
+    const more = await speciesOf(page);
+    assert.equal(more.stages[stage].model.silhouette.cap.length, before.stages[stage].model.silhouette.cap.length + 1);
+    assert.equal(new Set(countsOf(more)).size, 1);
+    await page.keyboard.press("Control+z");
+    await at(page, "ready");
+    const again = await between();
+    await page.mouse.move(again.x, again.y);
+    await page.mouse.down();
+    await page.mouse.move(again.x + 6, again.y);
+    await page.mouse.move(again.x + 14, again.y);
+    await page.mouse.up();
+    await at(page, "ready");
+    const dragged = await speciesOf(page);
+    const cap = ({ stages }) => stages[stage].model.silhouette.cap;
+    const outwards = cap(dragged).map(({ r }, index) => r - cap(before)[index].r);
+    assert.ok(outwards[1] > 1e-4 && outwards[2] > 1e-4, `both points follow: ${outwards}`);
+    assert.deepEqual(outwards.filter((_, index) => index !== 1 && index !== 2).filter(Boolean), []);
+    // Near to the ground a point snaps to it.
+    const foot = page.locator('.handle[role=button][aria-label^="stem, point 2 "]');
+    await foot.scrollIntoViewIfNeeded();
+    const { x, y, width, height } = await foot.locator(".knob").boundingBox();
+    const ground = await page.evaluate(() => {
+        const axis = document.querySelector("#sketch .middle").getAttribute("d").match(/[\d.]+/g);
+        const matrix = document.getElementById("sketch").getScreenCTM();
+        return new DOMPoint(Number(axis[0]), Number(axis[1])).matrixTransform(matrix).y;
+    });
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 4, ground + 5);
+    await page.mouse.up();
+    await at(page, "ready");
+    const { y: low } = (await speciesOf(page)).stages[stage].model.silhouette.stem[1];
+    assert.equal(low, 0);
+    expectNoProblems(log);
+});
+
+test("every species is a start, and the axis of its stem is bent and straightened", async () => {
+    const { page, log } = await open({ width: 1400, height: 860 });
+    await start(page, "ramaria_formosa");
+    const coral = JSON.parse(await (await fetch(`${base}/v1/species/ramaria_formosa`)).text());
+    assert.deepEqual(await speciesOf(page), coral);
+    assert.equal(await page.locator('#tools [data-tool="outline"]').isDisabled(), true);
+    await page.locator("#tab-more").click();
+    await page.locator("#more summary", { hasText: "Limbs" }).click();
+    await page.locator("#control-limbs\\.flatness-number").fill("0.5");
+    await page.locator("#control-limbs\\.flatness-number").press("Enter");
+    await at(page, "ready");
+    const flat = await speciesOf(page);
+    const shown = flat.stages.findIndex(({ model }) => model.limbs.flatness === 0.5);
+    assert.ok(shown >= 0);
+    await expectGrown({ stages: [flat.stages[shown]] });
+    await page.locator("#tab-found").click();
+    await start(page, "boletus_edulis");
+    await page.locator('#tools [data-tool="bend"]').press("Enter");
+    await page.locator("#bend-axis").press("Enter");
+    await page.locator('.handle[aria-label^="axis, point 4 of 4"]').focus();
+    for (let press = 0; press < 6; ++press) await page.keyboard.press("ArrowRight");
+    await at(page, "ready");
+    const bent = await speciesOf(page);
+    const axes = bent.stages.map(({ model }) => model.axis.length);
+    assert.deepEqual([...new Set(axes)], [4], "an axis in all stages");
+    const moved = bent.stages.filter(({ model }) => model.axis[3].x > 0.02);
+    assert.equal(moved.length, 1, "it is bent in one");
+    await expectGrown(bent);
+    await page.locator('.handle[aria-label^="axis, point 4 of 4"]').focus();
+    for (let press = 0; press < 20; ++press) await page.keyboard.press("Shift+ArrowRight");
+    assert.match(await page.locator("#status").textContent(), /would fold further on/);
+    await at(page, "ready");
+    await expectGrown(await speciesOf(page));
+    await page.locator("#straighten").press("Enter");
+    await at(page, "ready");
+    const straight = await speciesOf(page);
+    const bend = straight.stages.map(({ model }) => model.deformation.bend_deg);
+    assert.ok(straight.stages.every(({ model }) => model.axis.length === 0));
+    assert.ok(Math.max(...bend) > 5 && Math.max(...bend) <= 90, `${bend}`);
+    expectNoProblems(log);
+});
+
+test("parts are painted, from the photograph too, and the form has all else of the schema", async () => {
+    const { page, log } = await open({ width: 1400, height: 860 });
+    await give(page);
+    await drawLines(page);
+    const before = await speciesOf(page);
+    const stage = before.stages.findIndex(({ model }) => model.surface.cap.image);
+    await page.locator("#tab-paint").click();
+    const fromPhoto = page.locator("#paint section", { hasText: "Cap" }).first().locator(".segments button");
+    assert.deepEqual(
+        await fromPhoto.evaluateAll((all) => all.map((one) => one.getAttribute("aria-pressed"))),
+        ["true", "false"],
+    );
+    // The eyedropper reads the grey behind the mushroom, by the keyboard alone.
+    await page.locator("#paint-surface-cap-ramp-0 ~ .pipette").press("Enter");
+    assert.match(await page.locator("#sentence").textContent(), /^Choose a place for Cap, apex/);
+    await page.keyboard.press("Shift+ArrowRight");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() =>
+        document.querySelector("#paint-surface-cap-ramp-0-text").value !== "#820C17",
+    );
+    await at(page, "ready");
+    const picked = await page.locator("#paint-surface-cap-ramp-0-text").inputValue();
+    const painted = await speciesOf(page);
+    assert.equal(painted.stages[stage].model.surface.cap.ramp[0], picked);
+    assert.equal(painted.stages[stage].model.surface.cap.image, undefined, "paint covers no image");
+    await page.locator("#paint section .segments button").first().click();
+    await at(page, "ready");
+    assert.ok((await speciesOf(page)).stages[stage].model.surface.cap.image, "the image is back");
+    await page.locator("#add-stop").click();
+    await at(page, "ready");
+    await page.locator("#every-age").check();
+    await page.locator("#paint-surface-stem-top-text").fill("#2040c0");
+    await page.locator("#paint-surface-stem-top-text").press("Enter");
+    await at(page, "ready");
+    await page.locator("#tab-ornaments").press("ArrowLeft");
+    await page.locator("#tab-ornaments").click();
+    await page.locator("#ornaments summary", { hasText: "Warts" }).click();
+    await page.locator("#every-age").uncheck();
+    const count = page.locator("#control-warts\\.count-number");
+    await count.scrollIntoViewIfNeeded();
+    await count.fill("5000");
+    await count.press("Enter");
+    assert.match(await page.locator("#control-warts\\.count-error").textContent(), /above 1600/);
+    await count.fill("60");
+    await count.press("Enter");
+    await at(page, "ready");
+    const amount = page.locator("#control-ornaments\\.warts-number");
+    await amount.fill("0.9");
+    await amount.press("Enter");
+    await at(page, "ready");
+    await page.locator("#tab-more").click();
+    const season = page.locator("#control-facts\\.season");
+    await season.evaluate((input) => (input.closest("details").open = true));
+    await season.fill("8, 13");
+    await season.press("Enter");
+    assert.match(await page.locator("#control-facts\\.season-error").textContent(), /13 is above 12/);
+    await season.fill("8, 9");
+    await season.press("Enter");
+    await at(page, "ready");
+    const after = await speciesOf(page);
+    const surfaces = after.stages.map(({ model }) => model.surface);
+    assert.deepEqual([...new Set(surfaces.map(({ stem }) => stem.top))], ["#2040C0"]);
+    assert.equal(new Set(surfaces.map(({ cap }) => cap.ramp.length)).size, 1);
+    assert.equal(surfaces[0].cap.ramp.length, before.stages[0].model.surface.cap.ramp.length + 1);
+    assert.deepEqual([...new Set(after.stages.map(({ model }) => model.warts.count))], [60]);
+    const amounts = after.stages.map(({ model }) => model.ornaments.warts);
+    assert.deepEqual(amounts.filter((value) => value === 0.9).length, 1, "one stage alone");
+    assert.deepEqual(after.facts.season, [8, 9]);
+    await expectGrown(after);
+    await page.screenshot({ path: path.join(folder, "designer_paint.png") });
+    await page.locator("#tab-found").click();
+    expectNoProblems(log);
+});
+
+test("the model lies over the photograph where the photographed one is", async () => {
+    const { page, log } = await open({ width: 1400, height: 860 });
+    await give(page);
+    await drawLines(page);
+    await page.locator("#over-photo").check();
+    const box = await page.waitForFunction(() => {
+        const canvas = document.querySelector(".over-photo canvas");
+        const { width, height } = canvas;
+        const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+        const [xs, ys] = [[], []];
+        for (let i = 0; i < width * height; ++i) {
+            if (data[4 * i + 3] < 128) continue;
+            xs.push(i % width);
+            ys.push(Math.floor(i / width));
+        }
+        const least = (values) => values.reduce((a, b) => Math.min(a, b), Infinity);
+        const most = (values) => values.reduce((a, b) => Math.max(a, b), 0);
+        return xs.length > 1000 && [least(xs), least(ys), most(xs), most(ys)].map((v) => (v * 800) / width);
+    });
+    expectNear(await box.jsonValue(), [88, 40, 714, 715], 45);
+    await page.locator("#over-photo").uncheck();
+    expectNoProblems(log);
+});
+
+test("two fingers zoom, a loupe shows what a finger covers, and a long touch adds a point", async () => {
+    const { page, log } = await openAlone({
+        viewport: { width: 390, height: 844 },
+        hasTouch: true,
+        isMobile: true,
+    });
+    await page.locator("#start-species").tap();
+    await page.locator('#species-list button[data-species="boletus_edulis"]').tap();
+    await page.locator("#sketch .edited").waitFor();
+    await at(page, "ready");
+    await page.locator("#sketch").scrollIntoViewIfNeeded();
+    const session = await page.context().newCDPSession(page);
+    const touch = (type, ...points) =>
+        session.send("Input.dispatchTouchEvent", {
+            type,
+            touchPoints: points.map(([x, y], id) => ({ x, y, id })),
+        });
+    const middleOf = async (locator) => {
+        const { x, y, width, height } = await locator.boundingBox();
+        return [x + width / 2, y + height / 2];
+    };
+    const cap = page.locator('.handle[role=button][aria-label^="cap, point 3 "]');
+    const [x, y] = await middleOf(cap.locator(".knob"));
+    await touch("touchStart", [x, y]);
+    await touch("touchMove", [x + 10, y + 45]);
+    await page.locator("#loupe").waitFor();
+    await page.screenshot({ path: path.join(folder, "designer_loupe.png") });
+    const [, raised] = await middleOf(cap.locator(".knob"));
+    assert.ok(raised < y + 20, "the point is above the finger");
+    await touch("touchEnd");
+    await page.locator("#loupe").waitFor({ state: "hidden" });
+    await at(page, "ready");
+    const species = await speciesOf(page);
+    // A finger that rests on the curve adds a point there.
+    const handles = await page.locator(".handle[role=button]").count();
+    const place = await page.evaluate(() => {
+        const path = document.querySelector("#sketch .grab");
+        const matrix = path.getScreenCTM();
+        const total = path.getTotalLength();
+        for (let share = 0.55; share < 0.95; share += 0.005) {
+            const { x, y } = path.getPointAtLength(share * total).matrixTransform(matrix);
+            if (document.elementFromPoint(x, y) === path) return [x, y];
+        }
+    });
+    await touch("touchStart", place);
+    await page.waitForTimeout(700);
+    await touch("touchEnd");
+    await at(page, "ready");
+    assert.equal(await page.locator(".handle[role=button]").count(), handles + 1);
+    await page.locator("#remove-point").scrollIntoViewIfNeeded();
+    await page.locator("#undo").tap();
+    await at(page, "ready");
+    assert.deepEqual(await speciesOf(page), species);
+    const widthOf = () =>
+        page.locator("#sketch").evaluate((svg) => svg.viewBox.baseVal.width);
+    const whole = await widthOf();
+    await page.locator("#sketch").scrollIntoViewIfNeeded();
+    const [mx, my] = await middleOf(page.locator("#sketch"));
+    await touch("touchStart", [mx - 30, my]);
+    await touch("touchStart", [mx - 30, my], [mx + 30, my]);
+    await touch("touchMove", [mx - 60, my], [mx + 60, my]);
+    await touch("touchMove", [mx - 90, my], [mx + 90, my]);
+    await touch("touchEnd");
+    expectNear([(await widthOf()) / whole], [1 / 3], 0.05);
+    assert.deepEqual(await speciesOf(page), species, "zooming moves nothing");
+    await page.locator("#zoom-whole").tap();
+    assert.equal(await widthOf(), whole);
+    for (const tab of ["paint", "ornaments", "more"]) {
+        await page.locator(`#tab-${tab}`).tap();
+        await page.locator(`#panel-${tab} :is(.control, .paint-row)`).first().waitFor();
+        await page.screenshot({ path: path.join(folder, `designer_390_${tab}.png`), fullPage: true });
+    }
+    await page.locator("#tab-found").tap();
+    const small = await page
+        .locator("button:visible")
+        .evaluateAll((buttons) =>
+            buttons
+                .filter((button) => button.getBoundingClientRect().height < 44)
+                .map((button) => button.textContent),
+        );
+    assert.deepEqual(small, []);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.equal(wide, 0, "nothing is wider than the window");
+    await page.screenshot({ path: path.join(folder, "designer_390.png"), fullPage: true });
+    expectNoProblems(log);
+});
+
 test("the page lets no point go where the service refuses the outline", async () => {
     const text = await bundled(path.join(root, "web_viewer/src/designer/outline.ts"));
     const { controlsOf, moved } = await import(

@@ -20,10 +20,12 @@ const { outputFiles } = packages("esbuild").buildSync({
             "designer/findings",
             "designer/gesture",
             "designer/outline",
+            "designer/paint",
             "designer/service",
             "designer/sketch",
             "designer/species_chooser",
             "designer/species_file",
+            "designer/species_form",
             "designer/stage_strip",
             "dom",
             "gallery",
@@ -1204,6 +1206,150 @@ test("values of a document are changed by pointer, and nothing else is", () => {
     ]);
     assert.deepEqual(page.withoutStages(details), { "/spread/size": 0.2 });
     assert.equal(page.withoutStages({ "/stages/1/age": 0.1 }), undefined);
+});
+
+const colour = (fallback) => ({ type: "string", format: "color", "x-default": fallback });
+const amount = { type: "number", minimum: 0, maximum: 1, "x-default": 0.2 };
+/** A species' schema in small: what the page knows of the document is from it. */
+const modelSchema = {
+    type: "object",
+    properties: {
+        warts: {
+            type: "object",
+            title: "warts",
+            properties: {
+                count: { type: "integer", minimum: 0, maximum: 1600, "x-default": 0 },
+                size: { ...amount, description: "Radius of a piece." },
+            },
+        },
+        surface: {
+            type: "object",
+            properties: {
+                cap: {
+                    type: "object",
+                    properties: {
+                        ramp: {
+                            type: "array",
+                            maxItems: 6,
+                            items: colour("#000000"),
+                            "x-default": ["#C8A078", "#B48C64"],
+                        },
+                        roughness: amount,
+                        image: { type: "string" },
+                    },
+                },
+                stem: { type: "object", properties: { top: colour("#F0E6D2") } },
+            },
+        },
+    },
+    oneOf: [
+        {
+            properties: {
+                form: { const: "swept" },
+                silhouette: { type: "object", properties: { cap: { type: "array" } } },
+                azimuth: { type: "object", properties: { lobes: amount } },
+            },
+        },
+        {
+            properties: {
+                form: { const: "branched" },
+                limbs: { type: "object", properties: { web: amount } },
+            },
+        },
+    ],
+};
+
+test("every colour of the schema can be painted, and a painted part loses its image", () => {
+    const parts = page.paintedParts(modelSchema);
+    assert.deepEqual(
+        parts.map(({ member }) => member),
+        ["surface/cap", "surface/stem"],
+    );
+    const [cap, stem] = parts;
+    assert.equal(cap.ramp.most, 6);
+    assert.equal(cap.hasImage, true);
+    assert.equal(page.paintOf({}, stem.colours[0]), "#F0E6D2");
+    assert.deepEqual(page.rampOf({}, cap), ["#C8A078", "#B48C64"]);
+    const models = [
+        { surface: { cap: { ramp: ["#000000", "#FFFFFF"], image: "…" } } },
+        { surface: { cap: { ramp: ["#111111", "#222222"] } } },
+    ];
+    const more = page.painted(models, cap, cap.ramp.member, (model) =>
+        page.withStop(page.rampOf(model, cap), 0),
+    );
+    assert.deepEqual(more, {
+        "/stages/0/model/surface/cap/ramp": ["#000000", "#808080", "#FFFFFF"],
+        "/stages/0/model/surface/cap/image": undefined,
+        "/stages/1/model/surface/cap/ramp": ["#111111", "#1A1A1A", "#222222"],
+    });
+    const own = page.painted(models, stem, "surface/stem/top", (_, stage) =>
+        stage === 1 ? "#ABCDEF" : undefined,
+    );
+    assert.deepEqual(own, { "/stages/1/model/surface/stem/top": "#ABCDEF" });
+    assert.deepEqual(page.withoutStop(["#000000", "#FFFFFF"], 0), ["#000000", "#FFFFFF"]);
+    assert.deepEqual(page.withoutStop(["#000000", "#111111", "#FFFFFF"], 1), ["#000000", "#FFFFFF"]);
+});
+
+test("an eyedropper takes the mean of what is not transparent, and texts become colours", () => {
+    const pixels = [200, 10, 0, 255, 100, 20, 0, 255, 0, 0, 255, 0];
+    assert.equal(page.meanColour(pixels), "#960F00");
+    assert.equal(page.meanColour([1, 2, 3, 0]), undefined);
+    assert.equal(page.readColour(" c8a078 "), "#C8A078");
+    for (const none of ["", "#12345", "red", "#1234567"]) assert.equal(page.readColour(none), undefined);
+});
+
+test("the form of a model has what no other panel has, with the values of its document", () => {
+    const form = page.formOf(modelSchema, "model", false);
+    assert.deepEqual(form.fields.map(({ name }) => name).sort(), [
+        "azimuth.lobes",
+        "limbs.web",
+        "surface.cap.roughness",
+        "warts.count",
+        "warts.size",
+    ]);
+    assert.ok(form.groups.some(({ label }) => label === "Surface · Cap"));
+    const values = new page.DocumentValues(form);
+    const own = { stages: [{ model: { form: "swept", warts: { count: 40 } } }] };
+    values.read(own, { "/stages/0/model/warts/size": 0.5, "/spread/size": 1 }, "/stages/0/model");
+    const { effective } = values;
+    assert.equal(page.valueAt(effective, "warts.count"), 40, "its own");
+    assert.equal(page.valueAt(effective, "warts.size"), 0.2, "the default");
+    assert.equal(page.valueAt(effective, "azimuth.lobes"), 0.2);
+    assert.equal(page.valueAt(effective, "limbs.web"), undefined, "a cap has no limbs");
+    assert.deepEqual([...values.values], [["warts.size", 0.5]]);
+    values.set("warts.count", 12);
+    assert.deepEqual(values.change("warts.count"), {
+        pointer: "/stages/0/model/warts/count",
+        value: 12,
+    });
+    values.set("warts.size", undefined);
+    assert.equal(values.change("warts.size").value, undefined, "again as it was");
+    for (const name of ["warts.count", "spines.to", "surface.hymenium.pattern", "limbs.trunks"])
+        assert.ok(page.isEqualInAllStages(name), name);
+    for (const name of ["warts.size", "hymenium.blades", "surface.cap.roughness"])
+        assert.equal(page.isEqualInAllStages(name), false, name);
+});
+
+test("lists are texts in the form and are refused with a reason", () => {
+    const numbers = { type: "number", minimum: 0, maximum: 1 };
+    const pair = { items: numbers, fewest: 2, most: 2 };
+    assert.deepEqual(page.readList("0.1, 0.2", pair), [0.1, 0.2]);
+    assert.match(page.readList("0.1", pair), /1 values; 2 are needed/);
+    assert.match(page.readList("0.1, 3", pair), /3 is above 1/);
+    assert.match(page.readList("0.1, much", pair), /"much" is no number/);
+    const months = { items: { type: "integer", minimum: 1, maximum: 12 }, fewest: 0, most: 12 };
+    assert.match(page.readList("4.5", months), /no whole number/);
+    assert.deepEqual(page.readList("", months), []);
+    const rows = { items: { items: numbers }, fewest: 0, most: 12 };
+    assert.deepEqual(page.readList("0.5, 0.5; 1, 0, 0", rows), [
+        [0.5, 0.5],
+        [1, 0, 0],
+    ]);
+    assert.equal(page.listText([[0.5, 0.5], [1]], rows.items), "0.5, 0.5; 1");
+    const sources = { items: { type: "string", maxLength: 8 }, fewest: 0, most: 2 };
+    assert.deepEqual(page.readList("a, b; c", sources), ["a, b", "c"]);
+    assert.match(page.readList("far too long", sources), /longer than 8/);
+    assert.match(page.readList("a; b; c", sources), /at most 2/);
 });
 
 test("an axis bends until the stem would fold, and its angles are those of its ends", () => {

@@ -44,16 +44,21 @@ import {
 import {
     modelPointer,
     withoutGeometry,
+    withDetails,
     withoutStages,
     type Details,
     type Json,
 } from "./details";
+import { DetailsPanel, showFormProblem } from "./details_panel";
 import { Loupe } from "./loupe";
 import { AxisFrame, polylineOf, withInserted, withRemoved, type Silhouette } from "./outline";
 import { OutlineEditor, type ShownOutline } from "./outline_editor";
 import { OverPhoto, windowOf } from "./over_photo";
+import { meanColour } from "./paint";
+import { PaintPanel } from "./paint_panel";
+import { PanelTabs } from "../panel_tabs";
 import { Portraits } from "./portraits";
-import { tracedForms } from "./schemas";
+import { speciesSchema, tracedForms } from "./schemas";
 import { SpeciesChooser } from "./species_chooser";
 import { StageStrip } from "./stage_strip";
 import { PointTable } from "./point_table";
@@ -130,6 +135,9 @@ const fewPoints = 5;
 const mostBend = 90;
 const mostLean = 45;
 
+/** The eyedropper takes the mean of so many pixels of a photograph to each side. */
+const eyedropperReach = 2;
+
 /** Time after which a step is in the draft, milliseconds. */
 const saveDelayMs = 300;
 
@@ -146,6 +154,9 @@ export class Designer {
     private readonly strip: StageStrip;
     private readonly overPhoto: OverPhoto;
     private portraits: Portraits | undefined;
+    private readonly paint: PaintPanel;
+    private readonly details: DetailsPanel;
+    private formsRequested = false;
     /** Lines are drawn, or points of the outline or of the axis are moved. */
     private mode: "draw" | "outline" | "bend" = "draw";
     private photograph: Source | undefined;
@@ -215,6 +226,23 @@ export class Designer {
             () => !this.live?.idle || !!this.tracing,
         );
         this.findings = new Findings({ template: (template) => this.change({ template }) });
+        const forms = {
+            moving: (changes: Details) => this.showDraftOf(changes),
+            changed: (changes: Details, restored: readonly string[]) =>
+                this.write(changes, restored),
+        };
+        this.paint = new PaintPanel({
+            ...forms,
+            pick: (name) => this.pickColour(name),
+            said: announce,
+        });
+        const everyAge = byId<HTMLInputElement>("every-age");
+        this.details = new DetailsPanel(() => everyAge.checked, forms);
+        const panels = ["found", "paint", "ornaments", "more"] as const;
+        new PanelTabs(panels, (panel) => {
+            byId("of-stage").hidden = panel === "found";
+            if (panel !== "found") void this.makeForms();
+        });
         new SpeciesChooser((file) => void this.open(file));
         for (const tool of tools) {
             const { label, title } = words[tool];
@@ -526,15 +554,71 @@ export class Designer {
         if (shape) this.edited({ shape: shape.map(changed) });
     }
 
-    /** Changes values of the document, by JSON pointer. */
-    private write(changes: Details): void {
+    /** Changes values of the document, by JSON pointer; those of a second list are again as they
+     *  were traced or opened. */
+    private write(changes: Details, restored: readonly string[] = []): void {
         const details = { ...this.history.value.details };
+        for (const pointer of restored) delete details[pointer];
         // A changed pointer is the last, so that it has its effect.
         for (const [pointer, value] of Object.entries(changes)) {
             delete details[pointer];
             details[pointer] = value;
         }
-        this.edited({ details });
+        this.edited({ details: Object.keys(details).length > 0 ? details : undefined });
+    }
+
+    /** Shows the model with values that are being changed. */
+    private showDraftOf(changes: Details): void {
+        const species = this.trace && withDetails(this.trace.species, changes);
+        const model = species?.stages[this.shownStage]?.model;
+        if (model) this.live?.show(model, { draft: true });
+    }
+
+    /** Makes the forms from the service's schema, once they are wanted. */
+    private async makeForms(): Promise<void> {
+        if (this.formsRequested) return;
+        this.formsRequested = true;
+        try {
+            const schema = await speciesSchema();
+            for (const id of ["paint", "ornaments", "more"]) byId(id).replaceChildren();
+            this.paint.use(schema.properties?.["stages"]?.items?.properties?.["model"] ?? {});
+            this.details.use(schema);
+        } catch (error) {
+            this.formsRequested = false;
+            showFormProblem(asRequestFailed(error, "The form cannot be made").message);
+        }
+    }
+
+    private showForms(): void {
+        const { trace, traced, shownStage } = this;
+        const { age, name } = this.stages[shownStage] ?? { age: 0, name: "" };
+        byId("of-stage-name").textContent = `Age ${Math.round(age * 100)} %: ${name}`;
+        const canPick = this.photograph?.drawable ?? false;
+        this.paint.show(trace?.species, traced?.species, shownStage, canPick);
+        const ages = this.stages.map((stage) => stage.age);
+        this.details.show(traced?.species, ages, this.history.value.details, shownStage);
+    }
+
+    /** Lets a place of the photograph be chosen and returns its colour. */
+    private async pickColour(name: string): Promise<string | undefined> {
+        const text = `Choose a place for ${name}`;
+        byId("sentence").textContent = text;
+        announce(`${text}: click, or move the crosshair and press Enter. Escape gives up.`);
+        const place = await new Promise<Point | undefined>((done) => this.sketch.pick(done));
+        this.showOrder();
+        const { address } = this;
+        if (!place || !address) return undefined;
+        const picture = new Image();
+        picture.src = address;
+        await picture.decode();
+        const side = 2 * eyedropperReach + 1;
+        const canvas = make("canvas", { width: side, height: side });
+        const context = canvas.getContext("2d");
+        context?.drawImage(picture, eyedropperReach - place[0], eyedropperReach - place[1]);
+        if (!context) return undefined;
+        const colour = meanColour(context.getImageData(0, 0, side, side).data);
+        if (colour) announce(`${name}: ${colour}.`);
+        return colour;
     }
 
     private get stages(): readonly SpeciesStage[] {
@@ -834,7 +918,8 @@ export class Designer {
             this.tracing = undefined;
             this.showTrace(trace);
             // What an edit has done is announced where it is done.
-            if (!this.history.value.shape) announce(this.summary(trace));
+            const { shape, details } = this.history.value;
+            if (!shape && !details) announce(this.summary(trace));
         } catch (error) {
             if (tracing.signal.aborted) return;
             this.tracing = undefined;
@@ -887,6 +972,7 @@ export class Designer {
         const photographed = this.photograph?.drawable ? this.trace?.stage : undefined;
         this.strip.show(this.trace?.species, index, photographed);
         this.findings.show(this.trace, this.history.value, index);
+        this.showForms();
         void this.check();
         this.file = undefined;
         byId<HTMLButtonElement>("download-glb").disabled = true;

@@ -115,7 +115,9 @@ export class OutlineEditor {
         this.element.addEventListener("pointerup", () => this.letGo());
         this.element.addEventListener("pointercancel", () => this.putBack());
         this.element.addEventListener("dblclick", (event) => {
-            if ((event.target as Element).classList.contains("grab")) this.insertAt(event);
+            // The pointer was captured: the event does not tell what is below it.
+            const below = document.elementFromPoint(event.clientX, event.clientY);
+            if (below?.classList.contains("grab")) this.insertAt(event);
         });
         this.element.addEventListener("keydown", (event) => this.key(event));
         this.element.addEventListener("keyup", (event) => {
