@@ -14,11 +14,17 @@ export class Loupe {
     /** Shows the surroundings of a place of the picture, or nothing. */
     show(place: Point | undefined): void {
         this.element.hidden = !place;
-        if (!place) return;
+        if (!place) return this.view.replaceChildren();
         const across = (this.element.clientWidth * this.scale()) / magnification;
         const [x, y] = place;
         this.view.setAttribute("viewBox", `${x - across / 2} ${y - across / 2} ${across} ${across}`);
         this.view.style.setProperty("--pixel", `${this.scale() / magnification}px`);
+        // Copies of a use element would not have the styles of the picture.
+        const copy = byId("sketch-content").cloneNode(true) as SVGElement;
+        for (const each of [copy, ...copy.querySelectorAll("[role], [tabindex]")])
+            for (const name of ["id", "role", "tabindex", "aria-label"]) each.removeAttribute(name);
+        this.view.replaceChildren(copy);
+        this.view.classList.toggle("paper", byId("sketch").classList.contains("paper"));
         // It must not be where the finger is.
         const sketch = byId<HTMLElement & SVGSVGElement>("sketch");
         const matrix = sketch.getScreenCTM();

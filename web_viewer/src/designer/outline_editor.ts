@@ -59,6 +59,9 @@ const snapPixels = 8;
 /** How far above the finger a dragged point is, pixels of the screen. */
 export const abovePixels = 40;
 
+/** A pointer that is so near to a point means it and not the curve, pixels of the screen. */
+const knobPixels = 13;
+
 /** Movement that makes a drag of a touch, pixels of the screen. */
 const dragPixels = 6;
 
@@ -262,32 +265,52 @@ export class OutlineEditor {
         return (b[0] - a[0]) / (this.shown?.frame.scale ?? 1);
     }
 
+    /** Returns the point that is nearest to a pointer, and how far away it is on the screen. */
+    private nearestHandle(event: PointerEvent): { index: number; away: number } {
+        const { shown } = this;
+        const [x, y] = this.toPicture(event);
+        let best = { index: 0, away: Infinity };
+        if (!shown) return best;
+        const pixels = this.metres * shown.frame.scale;
+        controlsOf(shown.silhouette).forEach((control, index) => {
+            for (const on of [-1, 1] as const) {
+                const [px, py] = shown.frame.toPhoto(control, on);
+                const away = Math.hypot(px - x, py - y) / pixels;
+                if (away < best.away) best = { index, away };
+            }
+        });
+        return best;
+    }
+
     private down(event: PointerEvent): void {
         const { shown } = this;
         if (!shown || event.button !== 0 || !event.isPrimary) return;
         const target = event.target as Element;
-        const handle = target.closest<SVGElement>(".handle");
-        if (!handle && !target.classList.contains("grab")) return;
+        const onHandle = target.closest<SVGElement>(".handle");
+        if (!onHandle && !target.classList.contains("grab")) return;
+        const meant = this.nearestHandle(event);
+        // Targets of points are large and overlap: between them the curve is meant.
+        const handle = onHandle && meant.away <= knobPixels ? meant.index : undefined;
         event.stopPropagation();
         event.preventDefault();
         this.element.setPointerCapture(event.pointerId);
         const found = nearestOn(shown.silhouette, shown.frame.fromPhoto(this.toPicture(event)));
-        this.current = handle
-            ? Number(handle.dataset["index"])
-            : found.span + (found.share > 0.5 ? 1 : 0);
+        const beside = found.away / this.metres <= knobPixels;
+        const point = handle ?? (onHandle && !beside ? meant.index : undefined);
+        this.current = point ?? found.span + (found.share > 0.5 ? 1 : 0);
         this.redraw();
         // Another point that had the focus is let go.
         this.focus();
         const touch = event.pointerType === "touch";
         this.drag = {
-            at: handle ? this.current : found.span,
-            share: handle ? undefined : found.share,
+            at: point ?? found.span,
+            share: point === undefined ? found.share : undefined,
             touch,
             from: { x: event.clientX, y: event.clientY },
             begun: false,
         };
         this.start = shown.silhouette;
-        if (touch && !handle)
+        if (touch && point === undefined)
             this.pressing = setTimeout(() => {
                 this.putBack();
                 this.events.insert(found.span, found.share);

@@ -250,7 +250,6 @@ export class Sketch {
     private applyView(): void {
         const { x, y, width, height } = this.view;
         this.element.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
-        this.element.classList.toggle("near", width < this.extent.width);
         this.scale();
     }
 

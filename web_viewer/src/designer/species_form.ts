@@ -50,7 +50,6 @@ function plain(
         lists.set(path.join("."), { items, fewest, most });
         return {
             type: "string",
-            ...(rest.title ? { title: rest.title } : {}),
             description: `${rest.description ?? ""} ${listWords({ items, fewest, most })}`.trim(),
             ...(rest["x-unit"] ? { "x-unit": rest["x-unit"] } : {}),
         };

@@ -85,7 +85,19 @@ export class StageStrip {
             const { silhouette } = stage.model;
             panel.outline.setAttribute("d", silhouette ? smallOutline(silhouette) : "");
         });
+        this.reveal(shown);
         this.later();
+    }
+
+    /** Scrolls the strip, and nothing else, to a stage. */
+    private reveal(stage: number): void {
+        const item = this.panels[stage]?.button.parentElement;
+        const host = byId("stages");
+        if (!item) return;
+        const [left, right] = [item.offsetLeft, item.offsetLeft + item.offsetWidth];
+        if (left < host.scrollLeft) host.scrollLeft = left;
+        else if (right > host.scrollLeft + host.clientWidth)
+            host.scrollLeft = right - host.clientWidth;
     }
 
     /** Shows the outline of a stage that is being dragged. */
