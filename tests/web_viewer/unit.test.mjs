@@ -1324,6 +1324,19 @@ test("the form of a model has what no other panel has, with the values of its do
     });
     values.set("warts.size", undefined);
     assert.equal(values.change("warts.size").value, undefined, "again as it was");
+    const facts = { properties: { id: { type: "string", maxLength: 6 } } };
+    const named = new page.DocumentValues(page.formOf(facts, "species", true));
+    named.read({ id: "cep" }, undefined, "");
+    named.set("id", "my_cep");
+    assert.deepEqual(named.change("id"), { pointer: "/id", value: "my_cep" });
+    for (const [text, reason] of [
+        ["My Cep", /letters a to z/],
+        ["", /letters a to z/],
+        ["too_long", /8 letters; at most 6/],
+    ]) {
+        named.set("id", text);
+        assert.throws(() => named.change("id"), reason);
+    }
     for (const name of ["warts.count", "spines.to", "surface.hymenium.pattern", "limbs.trunks"])
         assert.ok(page.isEqualInAllStages(name), name);
     for (const name of ["warts.size", "hymenium.blades", "surface.cap.roughness"])

@@ -125,10 +125,7 @@ class Control {
             this.field.owner !== "" && this.settings.field(this.field.owner) === undefined;
         this.row.hidden =
             !this.settings.applies(this.field) ||
-            (isOfSpecies &&
-                set === undefined &&
-                effective !== undefined &&
-                own === undefined);
+            (isOfSpecies && set === undefined && effective !== undefined && own === undefined);
         for (const entry of this.entries) {
             if (entry instanceof HTMLInputElement && entry.type === "checkbox") {
                 entry.checked = value === true;

@@ -1,13 +1,6 @@
 // The points of a model's axis on the photograph: they bend the stem, and never so far that it folds.
 import { draw } from "../dom";
-import {
-    bent,
-    mostAxisPoints,
-    placed,
-    stemOf,
-    type AxisPoint,
-    type PlacedAxis,
-} from "./axis_line";
+import { bent, mostAxisPoints, placed, stemOf, type AxisPoint, type PlacedAxis } from "./axis_line";
 import type { Point } from "./gesture";
 import { polylineOf, type AxisFrame, type Silhouette } from "./outline";
 import { abovePixels } from "./outline_editor";
@@ -124,7 +117,8 @@ export class AxisEditor {
         if (!shown) return "";
         const { base, top } = stemOf(shown.silhouette);
         const aside = millimetres(Math.abs(x) * (top - base));
-        const where = Math.abs(x) < 5e-4 ? "in the middle" : `${aside} to the ${x > 0 ? "right" : "left"}`;
+        const where =
+            Math.abs(x) < 5e-4 ? "in the middle" : `${aside} to the ${x > 0 ? "right" : "left"}`;
         return `axis, point ${index + 1} of ${shown.axis.length}, ${where}, ${millimetres(base + y * (top - base))} high`;
     }
 
@@ -138,7 +132,8 @@ export class AxisEditor {
         const text = (points: readonly Point[]): string =>
             points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L");
         const line = polylineOf(silhouette);
-        const side = (on: -1 | 1): string => text(line.map((each) => place.frame.toPhoto(each, on)));
+        const side = (on: -1 | 1): string =>
+            text(line.map((each) => place.frame.toPhoto(each, on)));
         const d = `M${side(-1)}M${side(1)}`;
         const { base, top } = stemOf(silhouette);
         const middle = Array.from({ length: 25 }, (_, k) =>
@@ -173,13 +168,22 @@ export class AxisEditor {
         return handle;
     }
 
+    /** Returns the point that is nearest to a place; the targets of points overlap. */
+    private nearest([x, y]: Point): number {
+        const off = (this.shown?.axis ?? []).map((point) => {
+            const [px, py] = this.place?.toPhoto(point) ?? [0, 0];
+            return Math.hypot(px - x, py - y);
+        });
+        return off.indexOf(Math.min(...off));
+    }
+
     private down(event: PointerEvent): void {
         const handle = (event.target as Element).closest<SVGElement>(".handle");
         if (!handle || event.button !== 0 || !event.isPrimary || !this.shown) return;
         event.stopPropagation();
         event.preventDefault();
         this.element.setPointerCapture(event.pointerId);
-        this.current = Number(handle.dataset["index"]);
+        this.current = this.nearest(this.toPicture(event));
         this.redraw();
         this.focus();
         this.start = this.shown.axis;

@@ -58,7 +58,8 @@ function sampled(points: readonly AxisPoint[]): { place: Vector; tangent: Vector
             return step < 1e-9 ? [0, 0, 0] : scaled(minus(at(from + 1), at(from)), 1 / step);
         }
         const [a, b] = [stepOf(at(i - 1), at(i)), stepOf(at(i), at(i + 1))];
-        if (a < 1e-9 || b < 1e-9) return b < 1e-9 ? [0, 0, 0] : scaled(minus(at(i + 1), at(i)), 1 / b);
+        if (a < 1e-9 || b < 1e-9)
+            return b < 1e-9 ? [0, 0, 0] : scaled(minus(at(i + 1), at(i)), 1 / b);
         const [back, over, on] = [
             minus(at(i), at(i - 1)),
             minus(at(i + 1), at(i - 1)),
@@ -124,7 +125,11 @@ export function stemOf({ stem, cap }: Silhouette): StemSize {
     return {
         radius: stem.reduce((most, { r }) => Math.max(most, r), 0),
         base,
-        top: Math.max(stem.at(-1)?.y ?? 0, base + 1e-4, stem.length === 0 ? (cap.at(-1)?.y ?? 0) : 0),
+        top: Math.max(
+            stem.at(-1)?.y ?? 0,
+            base + 1e-4,
+            stem.length === 0 ? (cap.at(-1)?.y ?? 0) : 0,
+        ),
     };
 }
 

@@ -42,6 +42,7 @@ import {
     type AxisPoint,
 } from "./axis_line";
 import {
+    hasGeometry,
     modelPointer,
     withoutGeometry,
     withDetails,
@@ -322,7 +323,8 @@ export class Designer {
         byId("sketch").classList.toggle("paper", !photograph.drawable);
         for (const button of byId("tools").children)
             (button as HTMLElement).hidden =
-                !photograph.drawable && tools.some((tool) => tool === (button as HTMLElement).dataset["tool"]);
+                !photograph.drawable &&
+                tools.some((tool) => tool === (button as HTMLElement).dataset["tool"]);
         byId("size").hidden = !photograph.drawable;
         this.restored();
         if (!photograph.drawable) return this.edit("outline");
@@ -479,7 +481,9 @@ export class Designer {
     private key(event: KeyboardEvent): void {
         if (!(event.ctrlKey || event.metaKey) || event.altKey || !this.photograph) return;
         // Fields of text have an undo of their own.
-        if (event.target instanceof HTMLInputElement && event.target.type === "number") return;
+        const { target } = event;
+        if (target instanceof HTMLInputElement && /^(number|text|search)$/.test(target.type))
+            return;
         const pressed = event.key.toLowerCase();
         if (pressed !== "z" && pressed !== "y") return;
         event.preventDefault();
@@ -684,7 +688,9 @@ export class Designer {
         if (!this.overPhoto.shown || !model || !frame || !photograph) return;
         const seen = windowOf(model, frame, photograph.stored);
         this.overPhoto.show(file, seen).catch((error: unknown) => {
-            this.showFailure(asRequestFailed(error, "The model cannot be drawn over the photograph"));
+            this.showFailure(
+                asRequestFailed(error, "The model cannot be drawn over the photograph"),
+            );
         });
     }
 
@@ -725,10 +731,12 @@ export class Designer {
         this.checking?.abort();
         const { trace, shownStage } = this;
         const { shape, details } = this.history.value;
-        if (!trace || (trace.certificate && !shape && !details)) return;
+        const isEdited = !!shape || hasGeometry(details);
+        if (!trace || (trace.certificate && !isEdited && shownStage === trace.stage)) return;
         const checking = new AbortController();
         this.checking = checking;
-        const others = trace.species.stages.map((_, stage) => stage);
+        byId("gesture-errors").querySelector('[data-place="outline"]')?.remove();
+        const others = isEdited ? trace.species.stages.map((_, stage) => stage) : [];
         try {
             for (const stage of [shownStage, ...others.filter((one) => one !== shownStage)]) {
                 const { model, name } = trace.species.stages[stage] ?? {};
@@ -766,7 +774,9 @@ export class Designer {
         const { mode } = this;
         const isShown = mode !== "draw" && model && silhouette && traced;
         this.outline.show(
-            isShown && mode === "outline" ? this.shownOutline(model, silhouette, traced) : undefined,
+            isShown && mode === "outline"
+                ? this.shownOutline(model, silhouette, traced)
+                : undefined,
         );
         const axis = axisOf(model ?? {});
         this.axis.show(isShown && mode === "bend" ? { axis, silhouette, traced } : undefined);

@@ -1,7 +1,8 @@
 // Changes of single values of a species' document, by JSON pointer. All values are immutable, so that
 // undo restores whole documents.
 
-export type Json = null | boolean | number | string | readonly Json[] | { readonly [name: string]: Json };
+export type Json =
+    null | boolean | number | string | readonly Json[] | { readonly [name: string]: Json };
 
 /** New values by JSON pointer; undefined removes a member. */
 export type Details = Readonly<Record<string, Json | undefined>>;
@@ -34,7 +35,10 @@ function written(node: unknown, parts: readonly string[], value: Json | undefine
             at === index ? written(each, rest, value) : each,
         );
     }
-    const object = (typeof node === "object" && node !== null ? node : {}) as Record<string, unknown>;
+    const object = (typeof node === "object" && node !== null ? node : {}) as Record<
+        string,
+        unknown
+    >;
     if (value === undefined && !(name in object)) return object;
     if (value === undefined && rest.length === 0) {
         const { [name]: _, ...others } = object;
@@ -72,6 +76,11 @@ export function modelPointer(stage: number, member: string): string {
 
 /** Members of a model that a photograph determines: a new trace discards their changes. */
 const ofTheTrace = /^\/stages\/\d+\/model\/(axis|deformation\/(bend|lean)_deg)$/;
+
+/** Returns true if the axis or an angle of a stage was changed. */
+export function hasGeometry(details: Details | undefined): boolean {
+    return Object.keys(details ?? {}).some((pointer) => ofTheTrace.test(pointer));
+}
 
 /** Returns the changes that stay when the same species is traced anew. */
 export function withoutGeometry(details: Details | undefined): Details | undefined {

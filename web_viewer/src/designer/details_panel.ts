@@ -18,11 +18,16 @@ export interface DetailsEvents {
 const ornaments = /^(ornaments|warts|scales|volva|sac|ring|spines|peridioles|receptacle)$/;
 
 /** Returns what is wrong with the age of a stage: stages stand in ascending order. */
-export function ageProblem(ages: readonly number[], stage: number, age: number): string | undefined {
+export function ageProblem(
+    ages: readonly number[],
+    stage: number,
+    age: number,
+): string | undefined {
     const [younger, older] = [ages[stage - 1], ages[stage + 1]];
     if (younger !== undefined && age <= younger)
         return `is not above ${younger}, the age of the stage before`;
-    if (older !== undefined && age >= older) return `is not below ${older}, the age of the next stage`;
+    if (older !== undefined && age >= older)
+        return `is not below ${older}, the age of the next stage`;
     return undefined;
 }
 
@@ -111,16 +116,11 @@ export class DetailsPanel {
             values,
             prefix,
             ofStage: prefix(0) !== prefix(1),
-            controls: new Controls(
-                ({ key }) => hosts[panelOf(key)],
-                groups,
-                values,
-                {
-                    moving: (field) => this.take(part, field, false),
-                    moved: (field) => this.take(part, field, true),
-                    errorShown: (element) => element.scrollIntoView({ block: "nearest" }),
-                },
-            ),
+            controls: new Controls(({ key }) => hosts[panelOf(key)], groups, values, {
+                moving: (field) => this.take(part, field, false),
+                moved: (field) => this.take(part, field, true),
+                errorShown: (element) => element.scrollIntoView({ block: "nearest" }),
+            }),
         };
         return part;
     }

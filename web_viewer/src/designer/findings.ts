@@ -1,5 +1,6 @@
 // What the service has found on the photograph: numbers, warnings and the species that it is like.
 import { byId, make } from "../dom";
+import { hasGeometry } from "./details";
 import type { Drawing } from "./gesture";
 import { millimetres, sizeOf, type Nearest, type Trace } from "./service";
 
@@ -79,10 +80,12 @@ export class Findings {
         for (const id of ["findings", "actions"]) byId(id).hidden = !trace;
         if (!trace) return;
         byId("found-numbers").replaceChildren(
-            ...rowsOf(trace, !!shape || !!details, stage).flatMap(([name, value, meaning]) => [
-                make("dt", {}, name),
-                make("dd", { title: meaning }, value),
-            ]),
+            ...rowsOf(trace, !!shape || hasGeometry(details), stage).flatMap(
+                ([name, value, meaning]) => [
+                    make("dt", {}, name),
+                    make("dd", { title: meaning }, value),
+                ],
+            ),
         );
         byId("warnings").replaceChildren(
             ...trace.warnings.map(({ code, detail }) => make("li", { "data-code": code }, detail)),

@@ -17,7 +17,10 @@ export class Loupe {
         if (!place) return this.view.replaceChildren();
         const across = (this.element.clientWidth * this.scale()) / magnification;
         const [x, y] = place;
-        this.view.setAttribute("viewBox", `${x - across / 2} ${y - across / 2} ${across} ${across}`);
+        this.view.setAttribute(
+            "viewBox",
+            `${x - across / 2} ${y - across / 2} ${across} ${across}`,
+        );
         this.view.style.setProperty("--pixel", `${this.scale() / magnification}px`);
         // Copies of a use element would not have the styles of the picture.
         const copy = byId("sketch-content").cloneNode(true) as SVGElement;

@@ -385,7 +385,12 @@ export function nearestOn(silhouette: Silhouette, { r, y }: OutlinePoint): OnCur
             const place = placeOn(segment, i / pieces);
             const away = Math.hypot(place.r - r, place.y - y);
             if (away < best.away)
-                best = { span: segment.span, share: i / pieces, place: { r: place.r, y: place.y }, away };
+                best = {
+                    span: segment.span,
+                    share: i / pieces,
+                    place: { r: place.r, y: place.y },
+                    away,
+                };
         }
     return best;
 }

@@ -61,6 +61,8 @@ export class OverPhoto {
                 const { bytes: newest, seen: window } = this.wanted;
                 this.wanted = undefined;
                 await this.portraits().file(newest, window, this.canvas);
+                // It may have become unwanted in the meantime.
+                if (!this.shown) this.clear();
             }
         } finally {
             this.drawing = false;

@@ -79,7 +79,11 @@ function channelsOf(colour: string): Channels {
 export function colourOf(channels: readonly number[]): string {
     const text = channels
         .slice(0, 3)
-        .map((value) => Math.min(Math.max(Math.round(value), 0), 255).toString(16).padStart(2, "0"))
+        .map((value) =>
+            Math.min(Math.max(Math.round(value), 0), 255)
+                .toString(16)
+                .padStart(2, "0"),
+        )
         .join("");
     return `#${text.toUpperCase()}`;
 }
@@ -116,11 +120,13 @@ export function withoutStop(ramp: readonly string[], at: number): string[] {
     return ramp.length > fewestStops ? ramp.filter((_, index) => index !== at) : [...ramp];
 }
 
-
 function memberOf(model: unknown, member: string): unknown {
     return member
         .split("/")
-        .reduce<unknown>((node, name) => (node as Record<string, unknown> | undefined)?.[name], model);
+        .reduce<unknown>(
+            (node, name) => (node as Record<string, unknown> | undefined)?.[name],
+            model,
+        );
 }
 
 /** Returns the colours of a ramp of a model. */

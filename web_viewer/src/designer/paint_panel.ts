@@ -49,7 +49,12 @@ export class PaintPanel {
     }
 
     /** Shows the colours of a stage; `own` is the species without changes. */
-    show(species: Species | undefined, own: Species | undefined, stage: number, canPick: boolean): void {
+    show(
+        species: Species | undefined,
+        own: Species | undefined,
+        stage: number,
+        canPick: boolean,
+    ): void {
         this.species = species;
         this.own = own;
         this.stage = stage;
@@ -121,7 +126,11 @@ export class PaintPanel {
         const now = hasImage(model, part);
         const button = (label: string, pressed: boolean, act: () => void): HTMLElement => {
             const id = `source-${part.member.replaceAll("/", "-")}-${pressed === now ? "image" : "paint"}`;
-            const made = make("button", { type: "button", id, "aria-pressed": String(pressed) }, label);
+            const made = make(
+                "button",
+                { type: "button", id, "aria-pressed": String(pressed) },
+                label,
+            );
             made.addEventListener("click", () => {
                 if (!pressed) act();
             });
@@ -179,7 +188,11 @@ export class PaintPanel {
         return row;
     }
 
-    private single(part: PaintedPart, model: unknown, paint: PaintedPart["colours"][number]): HTMLElement {
+    private single(
+        part: PaintedPart,
+        model: unknown,
+        paint: PaintedPart["colours"][number],
+    ): HTMLElement {
         return this.row(
             paint.member,
             part.label,
@@ -203,7 +216,12 @@ export class PaintPanel {
     ): HTMLElement {
         const id = `paint-${member.replaceAll("/", "-")}`;
         const name = `${part}, ${label.toLowerCase()}`;
-        const swatch = make("input", { type: "color", id, value: value.toLowerCase(), "aria-label": name });
+        const swatch = make("input", {
+            type: "color",
+            id,
+            value: value.toLowerCase(),
+            "aria-label": name,
+        });
         const text = make("input", {
             type: "text",
             id: `${id}-text`,
@@ -226,7 +244,10 @@ export class PaintPanel {
             const colour = readColour(text.value);
             text.setAttribute("aria-invalid", String(!colour));
             if (colour) take(colour);
-            else this.events.said(`"${text.value}" is no colour; six digits are needed, as #C8A078.`);
+            else
+                this.events.said(
+                    `"${text.value}" is no colour; six digits are needed, as #C8A078.`,
+                );
         });
         const row = make(
             "div",
@@ -238,7 +259,12 @@ export class PaintPanel {
         if (!this.canPick) return row;
         const pipette = make(
             "button",
-            { type: "button", class: "pipette", title: "From the photograph", "aria-label": `${name}: from the photograph` },
+            {
+                type: "button",
+                class: "pipette",
+                title: "From the photograph",
+                "aria-label": `${name}: from the photograph`,
+            },
             draw(
                 "svg",
                 { viewBox: "0 0 20 20", "aria-hidden": "true" },

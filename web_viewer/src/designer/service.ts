@@ -125,7 +125,9 @@ export class Photograph implements Source {
 
     /** Asks the service to forget its copy; it would do so by itself in half an hour. */
     forget(): void {
-        send(`v1/photos/${this.stored.photo}.jpg`, { method: "DELETE", keepalive: true }).catch(() => undefined);
+        send(`v1/photos/${this.stored.photo}.jpg`, { method: "DELETE", keepalive: true }).catch(
+            () => undefined,
+        );
     }
 
     /** Does what needs the stored copy; if the service has forgotten it, the file is sent again. */

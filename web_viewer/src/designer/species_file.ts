@@ -59,7 +59,8 @@ export function readSpecies(text: string): Species {
     });
     for (const { model } of stages)
         // Clubs and puffballs need not state that they have no lower face.
-        if (model.silhouette) model.silhouette = { ...model.silhouette, hymenium: model.silhouette.hymenium ?? [] };
+        if (model.silhouette)
+            model.silhouette = { ...model.silhouette, hymenium: model.silhouette.hymenium ?? [] };
     return { ...(species as Species), id: species?.id ?? "species" };
 }
 

@@ -28,6 +28,8 @@ export interface FormSchema {
     groups: Group[];
     fields: Field[];
     lists: ReadonlyMap<string, ListStyle>;
+    /** Most letters of texts, by name. */
+    lengths: ReadonlyMap<string, number>;
     /** Values that a document has where it states none, by name. */
     defaults: (document: unknown) => Record<string, unknown>;
 }
@@ -80,7 +82,11 @@ function listWords({ items, fewest, most }: ListStyle): string {
             : Number.isFinite(most)
               ? `At most ${most} values`
               : "Values";
-    const parted = items.items ? "rows with semicolons" : items.type === "string" ? "semicolons" : "commas";
+    const parted = items.items
+        ? "rows with semicolons"
+        : items.type === "string"
+          ? "semicolons"
+          : "commas";
     return `${count}, parted by ${parted}.`;
 }
 
@@ -92,7 +98,9 @@ function filled(schema: DocumentSchema, document: unknown): unknown {
     const found: Record<string, unknown> = {};
     const take = (part: DocumentSchema): void => {
         for (const [name, sub] of Object.entries(part.properties ?? {}))
-            found[name] = sub.properties ? filled(sub, node[name]) : (node[name] ?? sub["x-default"]);
+            found[name] = sub.properties
+                ? filled(sub, node[name])
+                : (node[name] ?? sub["x-default"]);
         const choices = (part.oneOf ?? []) as DocumentSchema[];
         const chosen = choices.find(
             ({ properties }) => properties?.["form"]?.const === node["form"],
@@ -106,6 +114,14 @@ function filled(schema: DocumentSchema, document: unknown): unknown {
 /** Returns the form for a part of a document. */
 export function formOf(schema: DocumentSchema, whole: string, withColours: boolean): FormSchema {
     const lists = new Map<string, ListStyle>();
+    const lengths = new Map<string, number>();
+    const noteLengths = ({ properties = {} }: DocumentSchema, path: string): void => {
+        for (const [name, sub] of Object.entries(properties)) {
+            if (sub.maxLength !== undefined) lengths.set(path + name, sub.maxLength);
+            noteLengths(sub, `${path}${name}.`);
+        }
+    };
+    noteLengths(schema, "");
     const root = plain(schema, [], lists, withColours);
     for (const sub of Object.values(root.properties ?? {})) sub["x-default-from"] = "species";
     for (const choice of root.oneOf ?? [])
@@ -118,6 +134,7 @@ export function formOf(schema: DocumentSchema, whole: string, withColours: boole
         groups,
         fields: groups.flatMap(({ fields }) => fields),
         lists,
+        lengths,
         defaults: (document) => filled(schema, document) as Record<string, unknown>,
     };
 }
@@ -156,7 +173,8 @@ export function readList(text: string, style: ListStyle): Json[] | string {
         } else {
             const value = Number(part);
             if (!Number.isFinite(value)) return `"${part}" is no number`;
-            if (items.type === "integer" && !Number.isInteger(value)) return `${part} is no whole number`;
+            if (items.type === "integer" && !Number.isInteger(value))
+                return `${part} is no whole number`;
             if (items.minimum !== undefined && value < items.minimum)
                 return `${part} is below ${items.minimum}`;
             if (items.maximum !== undefined && value > items.maximum)
@@ -214,6 +232,11 @@ export class DocumentValues implements ControlledValues {
         const pointer = pointerOf(this.prefix, name);
         const value = this.values.get(name);
         const style = this.schema.lists.get(name);
+        const most = this.schema.lengths.get(name);
+        if (typeof value === "string" && most !== undefined && value.length > most)
+            throw new Error(`has ${value.length} letters; at most ${most} are allowed`);
+        if (name === "id" && !/^[a-z0-9_]+$/.test(String(value ?? "_")))
+            throw new Error("needs letters a to z, digits and underscores alone");
         if (!style || value === undefined) return { pointer, value };
         const list = readList(String(value), style);
         if (typeof list === "string") throw new Error(list);

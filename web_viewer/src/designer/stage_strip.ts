@@ -71,9 +71,7 @@ export class StageStrip {
         byId("stages").hidden = this.stages.length === 0;
         if (this.panels.length !== this.stages.length) {
             this.panels = this.stages.map((_, index) => this.panel(index));
-            this.list.replaceChildren(
-                ...this.panels.map(({ button }) => make("li", {}, button)),
-            );
+            this.list.replaceChildren(...this.panels.map(({ button }) => make("li", {}, button)));
         }
         this.stages.forEach((stage, index) => {
             const panel = this.panels[index];
