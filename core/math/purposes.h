@@ -87,6 +87,8 @@ enum Purpose : std::uint32_t {
     leaf_damage = 147,     ///< where insects have eaten a leaf
     fallen_litter = 148,   ///< litter on a cap
     ground_crumbs = 149,   ///< grains of soil on a clod and beside it
+    crossing = 150,        ///< what an offspring has of which parent
+    mutation = 151,        ///< how its genes differ from those of its parents
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -174,6 +176,8 @@ enum Purpose : std::uint32_t {
         case leaf_damage:
         case fallen_litter:
         case ground_crumbs:
+        case crossing:
+        case mutation:
             return 1;
     }
     return 0;

@@ -1,0 +1,44 @@
+#include "core/breed/breeding.h"
+
+#include <type_traits>
+#include <variant>
+
+#include "core/breed/traits.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Appends the names of the members of a part, and of what is in them.
+template <class T>
+void name_parts(const T& value, const std::string& path, std::vector<std::string>& names) {
+    if constexpr (is_variant<T>) {
+        std::visit([&](const auto& one) { name_parts(one, path, names); }, value);
+    } else {
+        T::fields([&](auto member, const Info& info) {
+            using Member = std::remove_cvref_t<decltype(value.*member)>;
+            if constexpr (Described<Member> || is_variant<Member>) {
+                const std::string name = part_path(path, info);
+                if (info.name[0]) names.push_back(name);
+                // An outline is inherited as a whole.
+                if constexpr (!std::is_same_v<Member, Silhouette>)
+                    name_parts(value.*member, name, names);
+            } else {
+                names.push_back(part_path(path, info));
+            }
+        });
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> lockable_parts(const Species& species) {
+    std::vector<std::string> names = {std::string(stages_part), std::string(size_part), "spread"};
+    name_parts(species.spread, "spread", names);
+    names.emplace_back("ground");
+    name_parts(species.ground, "ground", names);
+    name_parts(species.stages.front().model, "", names);
+    return names;
+}
+
+}  // namespace sporeprint
