@@ -113,6 +113,7 @@ MushroomRequest read_morph(const SpeciesPair& species, std::string_view body,
     if (spec.t > 0.0) weights.emplace_back(species[1], spec.t);
     request.spec.mix = canonical_mix(std::move(weights));
     request.spec.params = spec.params;
+    request.spec.params.drop_equal_seeds();
     if (request.spec.mix.size() < 2) return request;  // arcs have no meaning for a single species
     for (Arc arc : spec.arcs) {
         if (arc.a <= 0.0 || arc.a >= 1.0) continue;  // ends always correspond

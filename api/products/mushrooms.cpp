@@ -43,6 +43,7 @@ MushroomRequest read_mushroom(std::string_view mix, Query query, const Atlas& at
     drop_excluded_defaults(request.spec.params, named_options(rest));
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
+    request.spec.params.drop_equal_seeds();
     return request;
 }
 
@@ -75,6 +76,7 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Validat
     drop_excluded_defaults(request.spec.params, named_options(json));
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
+    request.spec.params.drop_equal_seeds();
     if (request.spec.model) without_negative_zero(*request.spec.model);
     return request;
 }

@@ -30,6 +30,7 @@ SurfaceAddress surface_address(const MushroomSpec& spec) {
     address.ornaments = {params.ornaments.warts, params.ornaments.scales};
     address.hymenium = params.hymenium;
     address.weathering = painted_of(params.weathering);
+    address.seeds = params.seeds;
     return address;
 }
 
@@ -46,6 +47,7 @@ PaintSpec painted_at(const SurfaceAddress& address, const Mix& mix, const Atlas&
     spec.params.ornaments.scales = address.ornaments.scales;
     spec.params.hymenium = address.hymenium;
     spec.params.weathering = as_weathering(address.weathering);
+    spec.params.seeds = address.seeds;
     PaintSpec paint_spec = paint_spec_of(spec, atlas, caches);
     for (PaintShare& share : paint_spec) share.painting.side = address.texture_size;
     return paint_spec;
@@ -61,6 +63,11 @@ SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query 
     std::vector<Problem> problems;
     read_query(rest, request.address, problems);
     errors.add(400, problems);
+    MushroomParams params;
+    params.seed = request.address.seed;
+    params.seeds = request.address.seeds;
+    params.drop_equal_seeds();
+    request.address.seeds = params.seeds;
     request.address.age = quantised_age(request.address.age);
     request.address.variation += 0.0;  // -0 is 0
     return request;

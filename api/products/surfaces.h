@@ -39,6 +39,7 @@ struct SurfaceAddress {
     PaintedAmounts ornaments;
     HymeniumOf<Maybe> hymenium;
     PaintedWeathering<Maybe> weathering;
+    std::optional<SplitSeeds> seeds;
 
     static constexpr void fields(auto visit) {
         using S = SurfaceAddress;
@@ -66,6 +67,7 @@ struct SurfaceAddress {
         visit(&S::ornaments, info_of<P>("ornaments"));
         visit(&S::hymenium, info_of<P>("hymenium"));
         visit(&S::weathering, info_of<P>("weathering"));
+        visit(&S::seeds, info_of<P>("seeds"));
     }
     bool operator==(const SurfaceAddress&) const = default;
 };

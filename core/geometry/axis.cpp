@@ -49,7 +49,7 @@ std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3
 AxisAngles axis_angles(const Individual& individual) {
     AxisAngles mean;
     for (const SpeciesShare& part : individual.parts) {
-        Random random(individual.effective.seed, purposes::axis_angles, stream_of(part.id));
+        Random random(individual.shape_seed, purposes::axis_angles, stream_of(part.id));
         mean.bend += part.weight * random.uniform(0.0, 2.0 * pi);
         mean.lean += part.weight * random.uniform(0.0, 2.0 * pi);
     }

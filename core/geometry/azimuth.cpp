@@ -66,7 +66,7 @@ Notch notch_at(double u, double sharpness) {
 }  // namespace
 
 AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(individual.azimuth) {
-    Random count_stream(individual.effective.seed, purposes::lobes, 1);
+    Random count_stream(individual.shape_seed, purposes::lobes, 1);
     const double lot = count_stream.uniform();
     for (Azimuth form : individual.lobes) {
         if (form.lobes <= 0 || form.lobe_depth <= 0.0) continue;
@@ -79,7 +79,7 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
     if (!identity())
         for (const CurveName name : curve_names) extent.include(individual.outline.of(name));
     radius_ = extent.radius;
-    Random random(individual.effective.seed, purposes::lobes);
+    Random random(individual.shape_seed, purposes::lobes);
     phase_ = random.uniform(0.0, 2.0 * pi);
     first_ = random.uniform(0.0, 2.0 * pi);
     second_ = random.uniform(0.0, 2.0 * pi);

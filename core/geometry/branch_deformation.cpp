@@ -78,7 +78,7 @@ BranchGraph deformed_branch_graph(const Individual& individual) {
     const DeformationOf<Plain>& deformation = individual.model.deformation;
     const Axis axis = bent_axis(graph, deformation, axis_angles(individual));
     const std::vector<FreeForm> dents =
-        dents_of(graph, deformation.imperfection, individual.effective.seed);
+        dents_of(graph, deformation.imperfection, individual.shape_seed);
     const auto moved = [&](SurfacePoint& point) {
         for (const FreeForm& one : dents) one.apply(point.position, point.meridian, point.azimuth);
         const AxisStation station = axis.at(point.position.y);

@@ -112,7 +112,7 @@ class TubeBuilder {
         : graph_(deformed_branch_graph(individual)),
           spine_detail_(spine_detail(individual.spines, level)),
           plan_(branch_plan(individual, graph_, level)),
-          seed_(individual.effective.seed),
+          seed_(individual.shape_seed),
           relief_seed_(Random(seed_, purposes::segment_turns, none).bits()),
           options_(options),
           represented_(graph_.nodes.size(), 1.0),
@@ -823,8 +823,8 @@ Mesh branched_mesh(const Individual& individual, DetailLevel level, const SweepO
     TubeBuilder builder(individual, level, options);
     Mesh mesh = builder.build();
     builder.add_hanging_spines(mesh, individual.spines);
-    add_ground(mesh, individual.grounds, builder.foot(), detail_of(level),
-               individual.effective.seed, options.textured, options.keep_absent);
+    add_ground(mesh, individual.grounds, builder.foot(), detail_of(level), individual.shape_seed,
+               options.textured, options.keep_absent);
     return mesh;
 }
 

@@ -315,7 +315,7 @@ class CollarBuilder {
           columns_(columns_of(level)),
           size_(collar_size(individual)),
           presence_(bracket_share(individual)) {
-        Random random(individual.effective.seed, purposes::bracket_base, 1);
+        Random random(individual.shape_seed, purposes::bracket_base, 1);
         for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
         radius_ = widest_radius(individual);
         // A bracket that is twisted until its sides change places has none.

@@ -60,7 +60,7 @@ std::vector<SizedNotch> notches_of(const Individual& individual, const LodLimits
     };
     const int all_splits = all.size() == 2 ? limits.pair_splits : limits.splits;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const std::uint32_t seed = damage_seed(individual.painted_seed, all[k].stream);
+        const std::uint32_t seed = damage_seed(individual.weather_seed, all[k].stream);
         const std::size_t most_bites = own_share(limits.bites, all, k, &MarginDamage::can_bite),
                           most_splits = own_share(all_splits, all, k, &MarginDamage::can_split);
         if (most_bites > 0) add(bites(seed), most_bites, all[k].bites);

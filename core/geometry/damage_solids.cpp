@@ -142,7 +142,7 @@ void DamageSolids::add_rolls() {
 void DamageSolids::add_rolls(const MarginDamage& species, std::size_t left) {
     const double most = individual_.model.surface.damage.peel_reach;
     const double length = individual_.outline.cap.length();
-    const std::uint32_t seed = damage_seed(individual_.painted_seed, species.stream);
+    const std::uint32_t seed = damage_seed(individual_.weather_seed, species.stream);
     for (const Tongue& tongue : tongues(seed)) {
         if (left-- == 0) break;
         const double scale = begun(tongue.onset, species.peel) * (most > 0.0 ? 1.0 : 0.0);
@@ -224,7 +224,7 @@ void DamageSolids::add_drops() {
     const double length = individual_.outline.cap.length();
     int left = limits_.drops;
     for (const DamageSpot& spot :
-         damage_spots(DamageSpotKind::dew, CurveName::cap, individual_.painted_seed)) {
+         damage_spots(DamageSpotKind::dew, CurveName::cap, individual_.weather_seed)) {
         if (left-- <= 0) break;
         const double scale = begun(spot.onset, amounts_.dew);
         const double radius = std::max(spot.radius * 1.15 * scale * length, 0.0);

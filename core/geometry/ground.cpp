@@ -619,7 +619,7 @@ void add_ground(Mesh& mesh, const Individual& individual, const OrnamentContext&
             unit_or(glm::cross(point.meridian, point.azimuth), glm::dvec3(0.0, -1.0, 0.0));
         return FootPoint{point.position + clear * normal, normal};
     };
-    add_ground(mesh, individual.grounds, foot, context.detail, individual.effective.seed,
+    add_ground(mesh, individual.grounds, foot, context.detail, individual.shape_seed,
                context.textured, context.keep_absent);
 }
 

@@ -26,7 +26,7 @@ RestSurface::RestSurface(const Individual& individual, const Detail& detail, con
     : outline_(individual.outline),
       relief_(individual, carrier),
       waves_(individual.waves, greatest_radius(individual.outline.cap), detail.columns,
-             individual.effective.seed, species_of(individual)),
+             individual.shape_seed, species_of(individual)),
       azimuth_(individual, detail.columns) {
     if (outline_.cap.empty() || outline_.hymenium.empty()) return;
     const auto at = [](const SubCurve& curve, double share) {

@@ -140,7 +140,7 @@ Deformer::Deformer(const Individual& individual)
       unevenness_(individual) {
     const Model& model = individual.model;
     const Outline& outline = individual.outline;
-    const std::uint32_t seed = individual.effective.seed;
+    const std::uint32_t seed = individual.shape_seed;
     const double radius = unevenness_.reach_of_stem(greatest_radius(outline.stem));
     const double fold = axis_.greatest_curvature() * radius;
     DeformationOf<Plain> unbent = model.deformation;

@@ -127,7 +127,7 @@ Unevenness::Unevenness(const Individual& individual) {
     stem_radius_ = length_ > 0.0 ? stem_radius : 0.0;
     const double slender = length_ < stem_radius ? length_ / stem_radius : 1.0;
     for (const SpeciesShare& part : individual.parts) {
-        Random random(individual.effective.seed, purposes::unevenness, stream_of(part.id));
+        Random random(individual.shape_seed, purposes::unevenness, stream_of(part.id));
         const double share = amount * part.weight;
         beside_ += share * drawn(random, beside);
         for (std::size_t i = 0; i < lifts; ++i) lifts_[i] += share * drawn(random, of_lifts[i]);
@@ -138,16 +138,16 @@ Unevenness::Unevenness(const Individual& individual) {
             swelling_[i] += share * of_swelling[i] * random.uniform(0.4, 1.0) * slender;
         }
         // In streams of their own: how many draws an outline takes changes nothing else.
-        Random of_section(individual.effective.seed, purposes::unevenness, stream_of(part.id) + 2);
+        Random of_section(individual.shape_seed, purposes::unevenness, stream_of(part.id) + 2);
         for (std::size_t i = 0; i < ovals; ++i) {
             oval_[i] += share * slender * drawn(of_section, of_ovals[i]);
             oval_wave_[i] += share * slender * drawn(of_section, of_oval_waves[i]);
         }
-        Random of_outline(individual.effective.seed, purposes::unevenness, stream_of(part.id) + 1);
+        Random of_outline(individual.shape_seed, purposes::unevenness, stream_of(part.id) + 1);
         const Sides own = drawn_sides(of_outline);
         for (std::size_t i = 0; i < sides; ++i) sides_[i] += share * own[i];
     }
-    Random random(individual.effective.seed, purposes::unevenness);
+    Random random(individual.shape_seed, purposes::unevenness);
     for (std::size_t i = 0; i < waves; ++i) {
         winding_from_[i] = random.uniform(0.0, 2.0 * pi);
         swelling_from_[i] = random.uniform(0.0, 2.0 * pi);

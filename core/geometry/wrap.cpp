@@ -91,7 +91,7 @@ BracketBase::BracketBase(const Individual& individual) {
     *this = BracketBase((outline.cap.empty() ? outline.stem.at(1.0) : outline.cap.at(0.0)).y,
                         base_reach * extent.radius,
                         base_half * extent.radius * individual.azimuth.width,
-                        bracket * individual.azimuth.base, individual.effective.seed);
+                        bracket * individual.azimuth.base, individual.shape_seed);
 }
 
 BracketBase::BracketBase(double middle, double reach, double half, double amount,

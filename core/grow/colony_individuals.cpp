@@ -76,7 +76,7 @@ std::vector<Individual> distinct_individuals(const ColonySpec& spec, const Colon
         Individual& one = individuals.emplace_back(
             resolve(individual_spec(spec, which), atlas, execution.caches.morphs));
         // All members use the images of one mushroom, so what they show is where it is painted.
-        one.painted_seed = painted_seed(params.seed, params.share);
+        one.painted_seed = one.weather_seed = painted_seed(params.seed, params.share);
         if (traits.lateral)
             fit = wide_enough(fit, body_mesh(one, placement_lod, {.textured = false}), which == 0);
     }

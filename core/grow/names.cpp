@@ -165,6 +165,9 @@ std::string file_name(const std::string& name, int lod, const std::optional<int>
 std::string skin_name(const MushroomSpec& spec) {
     MushroomSpec painted = spec;
     painted.params.seed = painted_seed(spec.params.seed, spec.params.share);
+    if (painted.params.seeds && spec.params.share == ImageShare::species)
+        painted.params.seeds->shape.reset();
+    painted.params.drop_equal_seeds();
     painted.params.substrate.reset();
     return level_name(product_name(painted) + "_skin", spec.params.lod);
 }

@@ -71,6 +71,7 @@ SpeciesPaint species_paint(const MushroomSpec& stepped, const Individual& indivi
     spec.model = stepped.model;
     if (!spec.model) spec.mix = {{id, 1000}};
     spec.params.seed = stepped.params.seed;
+    spec.params.seeds = stepped.params.seeds;
     spec.params.age = stepped.params.age;
     spec.params.variation = stepped.params.variation;
     spec.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks use strain
@@ -176,7 +177,9 @@ MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Ca
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;
     params.size = length_of_step(quantised_length(params.size));
+    if (params.share == ImageShare::species && params.seeds) params.seeds->shape.reset();
     params.seed = painted_seed(params.seed, params.share);
+    params.drop_equal_seeds();
     params.share = ImageShare::individual;
     params.variants = Variants::none;
     params.substrate.reset();
@@ -207,7 +210,8 @@ namespace {
 void set_painting(const MushroomParams& params, const SpeciesShare& part, const SpeciesPaint& alone,
                   PaintParams& painting) {
     const Model& model = part.model;
-    painting.seed = params.seed;
+    painting.seed = params.painted_shape_seed();
+    if (params.surface_seed() != painting.seed) painting.surface_seed = params.surface_seed();
     painting.lightness = alone.lightness;
     painting.side = params.texture_size >> params.lod;
     painting.metrics = alone.metrics;
@@ -241,7 +245,8 @@ void set_painting(const MushroomParams& params, const SpeciesShare& part, const 
     // All segments share one image, in which a pit would be on each of them; slugs eat their tips.
     if (std::holds_alternative<Branched>(model.shape)) painting.weathering.bites = 0.0;
     if (painting.weathering == PaintedWeathering<Plain>{}) return;
-    painting.damage_seed = damage_seed(params.seed, stream_of(part.id));
+    painting.damage_seed = damage_seed(params.weather_seed(), stream_of(part.id));
+    if (params.weather_seed() != painting.seed) painting.dew_seed = params.weather_seed();
 }
 
 // Returns the sum of equal paintings, in the order of their keys.

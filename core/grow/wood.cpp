@@ -37,7 +37,7 @@ std::optional<WoodPiece> wood_behind(const Individual& individual) {
     return WoodPiece{.radius = individual.trunk_radius,
                      .bottom = low - beyond,
                      .top = high + beyond,
-                     .seed = Random(individual.effective.seed, purposes::wood, names).bits(),
+                     .seed = Random(individual.shape_seed, purposes::wood, names).bits(),
                      .split = split_behind * individual.trunk_radius,
                      .kind = *individual.effective.substrate,
                      .contact_bottom = low,

@@ -168,10 +168,10 @@ struct BlendedStyle {
 class GraphBuilder {
   public:
     GraphBuilder(const std::vector<BranchGraphShare>& shares, const BranchGraphProportions& own,
-                 std::uint32_t seed)
+                 std::uint32_t seed, std::uint32_t weather_seed)
         : shares_(shares), own_(own), seed_(seed) {
         for (const BranchGraphShare& share : shares)
-            damage_.push_back({damage_seed(seed, share.stream), share.weight});
+            damage_.push_back({damage_seed(weather_seed, share.stream), share.weight});
     }
 
     BranchGraph build(double bites) {
@@ -464,8 +464,9 @@ void Branched::check(const std::string& path, std::vector<Problem>& problems) co
 }
 
 BranchGraph branch_graph_of(const std::vector<BranchGraphShare>& shares,
-                            const BranchGraphProportions& own, double bites, std::uint32_t seed) {
-    return GraphBuilder(shares, own, seed).build(bites);
+                            const BranchGraphProportions& own, double bites, std::uint32_t seed,
+                            std::optional<std::uint32_t> weather_seed) {
+    return GraphBuilder(shares, own, seed, weather_seed.value_or(seed)).build(bites);
 }
 
 }  // namespace sporeprint

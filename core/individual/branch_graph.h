@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/model/branched.h"
@@ -87,6 +88,7 @@ struct BranchGraph {
 /// the blended segments.
 ///
 /// bites   0..1, of WeatheringOf
+/// weather_seed  of where tips are eaten; `seed` if there is none
 /// throws  Impossible (path "/ramification/order") if a randomly sampled tree exceeds
 ///         most_branch_graph_tips
 /// cost    O(tips of all species)
@@ -94,6 +96,7 @@ struct BranchGraph {
 ///         model
 [[nodiscard]] BranchGraph branch_graph_of(const std::vector<BranchGraphShare>& shares,
                                           const BranchGraphProportions& own, double bites,
-                                          std::uint32_t seed);
+                                          std::uint32_t seed,
+                                          std::optional<std::uint32_t> weather_seed = {});
 
 }  // namespace sporeprint

@@ -146,7 +146,7 @@ std::uint32_t damage_seed(std::uint32_t individual, std::uint32_t stream) {
 SeedShares damage_shares(const Individual& individual) {
     SeedShares shares;
     for (const SpeciesShare& part : individual.parts)
-        shares.push_back({damage_seed(individual.painted_seed, stream_of(part.id)), part.weight});
+        shares.push_back({damage_seed(individual.weather_seed, stream_of(part.id)), part.weight});
     return shares;
 }
 

@@ -94,6 +94,8 @@ struct Individual {
     MushroomParams effective;
     /// The seed of all features that are both in the mesh and in the images, such as warts.
     std::uint32_t painted_seed = 1;
+    std::uint32_t shape_seed = 1;    ///< of all features that are in the mesh alone
+    std::uint32_t weather_seed = 1;  ///< of damage, which is both in the mesh and in the images
     /// The scale factor of a swept individual: shapes at size 1 are multiplied by it.
     double size = 0.0;
     double lightness = 1.0;           ///< factor on the linear colour of the cap

@@ -35,6 +35,35 @@ constexpr const char* name(Targets targets) {
     return nullptr;
 }
 
+/// Seeds of three sides of an individual, each that of the individual if it is not set: so one can be
+/// drawn anew without the others.
+struct SplitSeeds {
+    std::optional<std::uint32_t> shape, surface, damage;
+
+    static constexpr void fields(auto visit) {
+        using S = SplitSeeds;
+        visit(&S::shape, Info{.name = "shape",
+                              .min = 0,
+                              .max = 4294967295.0,
+                              .doc = "Seed of the shape: size, outline and bend, branches, the "
+                                     "places of warts, scales, gills and relief, ring, soil and "
+                                     "litter; that of the individual if it is not given."});
+        visit(&S::surface, Info{.name = "surface",
+                                .min = 0,
+                                .max = 4294967295.0,
+                                .doc = "Seed of what is painted: hue and lightness, patterns, "
+                                       "grain and stains; that of the individual if it is not "
+                                       "given."});
+        visit(&S::damage, Info{.name = "damage",
+                               .min = 0,
+                               .max = 4294967295.0,
+                               .doc = "Seed of what time and weather did: where bites, tears, "
+                                      "cracks, bruises and drops are; that of the individual if "
+                                      "it is not given."});
+    }
+    bool operator==(const SplitSeeds&) const = default;
+};
+
 /// The query parameters of /v1/mushrooms. Unset optionals take the value of the species.
 struct MushroomParams {
     std::uint32_t seed = 1;
@@ -57,6 +86,7 @@ struct MushroomParams {
     Animation animation = Animation::none;
     int frames = 9;
     Targets targets = Targets::position_normal;
+    std::optional<SplitSeeds> seeds;
 
     static constexpr void fields(auto visit) {
         using P = MushroomParams;
@@ -109,6 +139,33 @@ struct MushroomParams {
                    .doc = "What a growth stage moves: positions and normals, or positions alone, "
                           "for readers with at most 16 vertex attributes: two of them for each "
                           "stage, or one; only with animation=growth."});
+        visit(&P::seeds,
+              Info{.name = "seeds", .doc = "Seeds of shape, surface and damage, if they differ."});
+    }
+    /// Returns the seed of the shape.
+    [[nodiscard]] std::uint32_t shape_seed() const {
+        return seeds ? seeds->shape.value_or(seed) : seed;
+    }
+    /// Return the seeds of features that are both in the mesh and in the images, of what is painted
+    /// alone, and of what weather did: those of seed 1 if all individuals share their images.
+    [[nodiscard]] std::uint32_t painted_shape_seed() const {
+        return painted_seed(shape_seed(), share);
+    }
+    [[nodiscard]] std::uint32_t surface_seed() const {
+        const std::uint32_t own = painted_seed(seed, share);
+        return seeds ? seeds->surface.value_or(own) : own;
+    }
+    [[nodiscard]] std::uint32_t weather_seed() const {
+        const std::uint32_t own = painted_seed(seed, share);
+        return seeds ? seeds->damage.value_or(own) : own;
+    }
+    /// Removes seeds that have their defaults, which would make a second URL of the same bytes.
+    void drop_equal_seeds() {
+        if (!seeds) return;
+        if (seeds->shape == seed) seeds->shape.reset();
+        for (auto* own : {&seeds->surface, &seeds->damage})
+            if (*own == painted_seed(seed, share)) own->reset();
+        if (*seeds == SplitSeeds{}) seeds.reset();
     }
     /// Refuses `frames` and `targets` without a clip, which would make a second URL of the same
     /// bytes, a clip of several levels of detail, and two parameters that choose the level.

@@ -390,7 +390,9 @@ void resolve_branched(Individual& individual, const MushroomSpec& spec,
                                      factor(draws.stem_width, spread.stem_width, variation),
                                      factor(draws.cap_height, spread.cap_height, variation)};
     const double bites = requested.weathering.bites.value_or(individual.model.weathering.bites);
-    individual.branch_graph = branch_graph_of(shares, own, bites, requested.seed);
+    individual.branch_graph = branch_graph_of(
+        shares, own, bites, requested.shape_seed(),
+        requested.seeds ? requested.seeds->damage.value_or(requested.seed) : requested.seed);
     individual.stem_top = individual.branch_graph.trunk;
     individual.spines = spines_of(sources, own.size);
     if (requested.base == Base::natural) individual.grounds = grounds_of(sources, own.size);
@@ -520,7 +522,9 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
 
     Individual individual;
     individual.effective = requested;
-    individual.painted_seed = painted_seed(requested.seed, requested.share);
+    individual.painted_seed = requested.painted_shape_seed();
+    individual.shape_seed = requested.shape_seed();
+    individual.weather_seed = requested.weather_seed();
     const auto everyone = [](const Source&) { return true; };
     const Spread spread =
         blend_among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });
@@ -531,13 +535,16 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
     else
         model.shape = Swept{};
 
-    const Draws draws = draws_of(requested.seed, sources);
+    const Draws draws = draws_of(requested.shape_seed(), sources);
     const double variation = requested.variation;
     if (sources.front().is_branched())
         resolve_branched(individual, spec, sources, draws, spread);
     else
         resolve_swept(individual, spec, sources, arcs, draws, spread, morphs);
-    individual.lightness = factor(draws.lightness, spread.lightness, variation);
+    const std::uint32_t colour_seed =
+        requested.seeds ? requested.seeds->surface.value_or(requested.seed) : requested.seed;
+    individual.lightness =
+        factor(draws_of(colour_seed, sources).lightness, spread.lightness, variation);
     DeformationOf<Plain>& deformation = model.deformation;
     deformation.lean_deg =
         std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
@@ -576,7 +583,7 @@ std::vector<BranchGraph> species_branch_graphs(const MushroomSpec& spec, const A
         for (const Source& source : sources)
             shares.push_back({&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0,
                               stream_of(source.id)});
-        branch_graphs.push_back(branch_graph_of(shares, {}, 0.0, spec.params.seed));
+        branch_graphs.push_back(branch_graph_of(shares, {}, 0.0, spec.params.shape_seed()));
     }
     return branch_graphs;
 }

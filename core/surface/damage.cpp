@@ -127,7 +127,9 @@ class DamagePlanner {
         const CurveName curve = part == Part::cap        ? CurveName::cap
                                 : part == Part::hymenium ? CurveName::hymenium
                                                          : CurveName::stem;
-        const std::uint32_t seed = kind == DamageKind::drop ? params_.seed : params_.damage_seed;
+        const std::uint32_t seed = kind == DamageKind::drop
+                                       ? params_.dew_seed.value_or(params_.seed)
+                                       : params_.damage_seed;
         for (const DamageSpot& spot : damage_spots(spotted, curve, seed)) {
             const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;

@@ -69,7 +69,7 @@ PaintPlan paint_plan(const PaintParams& params, const ImageRotations& turns) {
         plan.uploads[i] = uploaded_image(*uploads[i].upload, plan.frames[i], uploads[i].path);
         rotate(plan.uploads[i], uploads[i].turn);
     }
-    const auto coarse = seeds<5>(params.seed, purposes::clouds);
+    const auto coarse = seeds<5>(params.paint_seed(), purposes::clouds);
     plan.disc_step = plan.side >= 512 ? 2 : 1;
     plan.strip_step = std::clamp(plan.side / 256, 1, 8);
     plan.coarse_cells = std::min(64, plan.side / 2);

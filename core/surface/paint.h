@@ -56,6 +56,7 @@ struct PaintParams {
     double slime = 0.0;
     PaintedWeathering<Plain> weathering;
     std::uint32_t damage_seed = 1;
+    std::optional<std::uint32_t> surface_seed, dew_seed;
 
     static constexpr void fields(auto visit) {
         using P = PaintParams;
@@ -95,7 +96,18 @@ struct PaintParams {
                                     .min = 0,
                                     .max = 4294967295.0,
                                     .doc = "Where they did it: the individual and its species."});
+        visit(&P::surface_seed,
+              Info{.name = "surface_seed",
+                   .min = 0,
+                   .max = 4294967295.0,
+                   .doc = "Of colours and patterns, unless it is that of the individual."});
+        visit(&P::dew_seed, Info{.name = "dew_seed",
+                                 .min = 0,
+                                 .max = 4294967295.0,
+                                 .doc = "Of drops, unless it is that of the individual."});
     }
+    /// Returns the seed of what is painted but has no place in the mesh.
+    [[nodiscard]] std::uint32_t paint_seed() const { return surface_seed.value_or(seed); }
     bool operator==(const PaintParams&) const = default;
 };
 

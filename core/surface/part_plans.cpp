@@ -125,7 +125,7 @@ DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
 
 /// Returns the individual's own hue as the stem has it.
 Light stem_tint(const PaintParams& params) {
-    return tint_of(hue_of(params.seed), 0.6 * params.surface.cap.colour_drift);
+    return tint_of(hue_of(params.paint_seed()), 0.6 * params.surface.cap.colour_drift);
 }
 
 CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
@@ -134,7 +134,7 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     const double arc = length_of_step(params.metrics.cap_arc);
     plan.disc = cap_disc(arc, length_of_step(params.metrics.cap_radius), frame);
     plan.relief = relief_plan(params);
-    plan.seed = seeds<12>(params.seed, purposes::cap_paint);
+    plan.seed = seeds<12>(params.paint_seed(), purposes::cap_paint);
     plan.lightness = single(params.lightness);
     // Slime is smooth and fills bumps.
     plan.roughness = single(cap.roughness + params.slime * (0.12 - cap.roughness));
@@ -163,8 +163,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.fibril_count = cap.fibril_count;
     plan.zones = single(cap.zones);
     plan.zone_count = single(cap.zone_count);
-    plan.zone_seed = seeds<3>(params.seed, purposes::zone_widths);
-    const Hue hue = hue_of(params.seed);
+    plan.zone_seed = seeds<3>(params.paint_seed(), purposes::zone_widths);
+    const Hue hue = hue_of(params.paint_seed());
     plan.tint = tint_of(hue, cap.colour_drift);
     const SineCosine side = sine_cosine(2.0 * pi * hue.turn);
     plan.joined = params.metrics.hymenium_arc > quantised_length(0.0) ? 0.0F : 1.0F;
@@ -177,7 +177,7 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.ramp_drift = single(0.22 * cap.colour_drift);
     const double texel = arc * static_cast<double>(plan.disc.per_texel);
     plan.skin = skin_plan(cap.skin, {arc, texel, texel}, 1.0 - 0.7 * params.slime,
-                          seeds<1>(params.seed, purposes::skin_grain)[0]);
+                          seeds<1>(params.paint_seed(), purposes::skin_grain)[0]);
     plan.patches = single(cap.patches);
     plan.patch_frequency = single(
         std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
@@ -303,7 +303,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     const double aspect = std::clamp(length / circumference, 0.02, 40.0);
     const double along = aspect / (share * frame.width);
     const double round = 1.0 / (share * frame.height);
-    plan.seed = seeds<12>(params.seed, purposes::stem_paint);
+    plan.seed = seeds<12>(params.paint_seed(), purposes::stem_paint);
     plan.aspect = single(aspect);
     plan.ragged = single(0.10 * std::min(1.0, 1.5 / aspect));
     plan.texel_along = single(along);
@@ -326,7 +326,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.tint = stem_tint(params);
     plan.skin =
         skin_plan(stem.skin, {circumference, circumference * round, circumference * along, true},
-                  1.0, seeds<1>(params.seed, purposes::skin_grain)[0] + 0x51ED270BU);
+                  1.0, seeds<1>(params.paint_seed(), purposes::skin_grain)[0] + 0x51ED270BU);
     plan.base_stain = single(stem.base_stain);
     plan.soil = single(stem.soil);
     plan.soil_colour = light_of(stem.soil_colour);
@@ -377,7 +377,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
 VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
     VeilPlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, purposes::veil_paint);
+    plan.seed = seeds<4>(params.paint_seed(), purposes::veil_paint);
     plan.texel = single(1.0 / (share * frame.width));
     plan.across = single(static_cast<double>(frame.height) / frame.width);
     plan.colour = light_of(params.surface.veil.colour);
@@ -399,7 +399,7 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
     const HymeniumSurface& face = params.surface.hymenium;
     BladePlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, purposes::blade_paint);
+    plan.seed = seeds<4>(params.paint_seed(), purposes::blade_paint);
     plan.texel_along = single(1.0 / (share * frame.width));
     const double depth = std::max(params.hymenium.depth, 0.01);
     plan.texel_across = single(depth / (share * frame.height));
@@ -426,7 +426,7 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
 FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
     FleshPlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, purposes::flesh_paint);
+    plan.seed = seeds<4>(params.paint_seed(), purposes::flesh_paint);
     plan.texel_along = single(1.0 / (share * frame.width));
     plan.texel_across = single(flesh_width / (share * frame.height));
     plan.colour = light_of(params.surface.flesh.colour);
@@ -440,7 +440,7 @@ FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
 GroundPlan ground_plan(const PaintParams& params, const Frame& frame) {
     GroundPlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, purposes::ground_paint);
+    plan.seed = seeds<4>(params.paint_seed(), purposes::ground_paint);
     plan.texel_along = single(1.0 / (share * frame.width));
     plan.texel_across = single(1.0 / (share * frame.height));
     for (std::size_t i = 0; i < plan.shown.size(); ++i)

@@ -312,7 +312,7 @@ TEST(Unevenness, EachSeedAndEachSpeciesHasItsOwn) {
     const auto moved = [&](const std::string& id, std::uint32_t seed) {
         Individual individual = uneven("amanita_muscaria", 0.5);
         individual.parts.front().id = id;
-        individual.effective.seed = seed;
+        individual.shape_seed = seed;
         return image_of(Unevenness(individual), p).point;
     };
     const glm::dvec3 first = moved("amanita_muscaria", 1);
