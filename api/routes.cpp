@@ -6,6 +6,7 @@
 #include "api/products/library.h"
 #include "api/products/morphs.h"
 #include "api/products/mushrooms.h"
+#include "api/products/offspring.h"
 #include "api/products/photos.h"
 #include "api/products/sets.h"
 #include "api/products/traces.h"
@@ -20,6 +21,7 @@ const RouteTable& route_table() {
         species_routes,
         mushroom_routes,
         morph_routes,
+        offspring_routes,
         colony_routes,
         leaf_routes,
         tree_routes,

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/atlas/atlas.h"
 #include "core/silhouette/morph_set.h"
 
 namespace sporeprint::api {
@@ -14,6 +15,12 @@ std::size_t weight_of(const Painted& painted) {
     const RawImages& raw = *std::get<Painting>(painted);
     return raw.rgb[0].size() + raw.rgb[1].size() + raw.rgb[2].size() + sizeof(RawImages);
 }
+
+/// Bred species are needed as long as somebody looks at them: about 150 of the atlas.
+constexpr std::size_t offspring_bytes = std::size_t{16} << 20U;
+
+/// The values of a species take about twice the bytes of its text.
+std::size_t weight_of(const Atlas& bred) { return 3 * bred.entries().front().json.size(); }
 
 /// The result of a cache lookup.
 struct Requested {
@@ -45,7 +52,8 @@ Store::Store(const ServiceOptions& options)
                 [](const CachedResponse& response) { return api::weight_of(*response); }),
       images(options.image_cache_bytes, [](const Painted& painted) { return weight_of(painted); }),
       morphs(options.morph_cache_bytes,
-             [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }) {
+             [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }),
+      offspring(offspring_bytes, [](const Bred& bred) { return weight_of(*bred); }) {
     if (!options.store.empty())
         directory.emplace(options.store, options.store_bytes, options.store_event);
 }
@@ -79,6 +87,11 @@ Caches cached_only(Store& store) {
         if (std::optional<Morph> cached = store.morphs.cache().find(key)) return *std::move(cached);
         throw CacheMiss{key, {}};
     };
+    caches.offspring = [&store](const std::string& key, const std::function<Bred()>&) {
+        if (std::optional<Bred> cached = store.offspring.cache().find(key))
+            return *std::move(cached);
+        throw CacheMiss{key, {}};
+    };
     return caches;
 }
 
@@ -90,6 +103,13 @@ Caches computed_inline(Store& store) {
         if (cached) return *cached;
         Morph generated = make();
         store.morphs.cache().insert(key, generated);
+        return generated;
+    };
+    caches.offspring = [&store](const std::string& key, const std::function<Bred()>& make) {
+        if (std::optional<Bred> cached = store.offspring.cache().find(key))
+            return *std::move(cached);
+        Bred generated = make();
+        store.offspring.cache().insert(key, generated);
         return generated;
     };
     return caches;
@@ -130,6 +150,11 @@ JobContext::JobContext(Store& store, std::stop_token stop, const Observer& obser
         count(store_.counters.morph_hits, store_.counters.morph_misses, requested.hit);
         note(morphs_, cache_member("sporeprint-morph", requested.hit, requested.stored));
         return morph;
+    };
+    execution_.caches.offspring = [this](const std::string& key,
+                                         const std::function<Bred()>& make) {
+        Requested requested;
+        return ask<Atlas>(store_.offspring, key, make, execution_.stop, requested);
     };
 }
 

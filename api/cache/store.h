@@ -25,6 +25,7 @@ using CachedResponse = std::shared_ptr<const Response>;
 using Images = std::shared_ptr<const ImageSet>;
 using Painting = std::shared_ptr<const RawImages>;
 using Morph = std::shared_ptr<const MorphSet>;  ///< the correspondence of a set of species
+using Bred = std::shared_ptr<const Atlas>;      ///< one bred species
 
 /// The values of the image cache: encoded files, and the paintings from which images of mixes are
 /// blended. Both share one budget.
@@ -42,6 +43,7 @@ struct Store {
     Cache<CachedResponse> responses;
     ComputingCache<Painted> images;
     ComputingCache<Morph> morphs;
+    ComputingCache<Bred> offspring;
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
@@ -52,18 +54,17 @@ struct Store {
     std::atomic<std::uint64_t> photographs{0}, uploads{0};
 };
 
-/// Thrown by the Caches of cached_only() for a correspondence that is not cached.
+/// Thrown by the Caches of cached_only() for a correspondence or an offspring that is not cached.
 struct CacheMiss {
     std::string key;
     Cost cost;  ///< of computing it; set by the product that needs it
 };
 
-/// Returns Caches for plan() that return cached correspondences and throw CacheMiss for others.
-/// Lookups are not counted as hits or misses. Images are not cached.
+/// Returns Caches for plan() that return cached correspondences and offspring, and throw CacheMiss
+/// for others. Lookups are not counted as hits or misses. Images are not cached.
 [[nodiscard]] Caches cached_only(Store& store);
 
-/// Returns Caches for plan() that compute missing correspondences on the calling thread, which
-/// takes milliseconds, without waiting for other threads that compute the same. Images are not
+/// Returns Caches for plan() that compute missing ones on the calling thread, which takes milliseconds, without waiting for other threads that compute the same. Images are not
 /// cached.
 [[nodiscard]] Caches computed_inline(Store& store);
 

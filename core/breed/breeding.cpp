@@ -4,6 +4,8 @@
 #include <variant>
 
 #include "core/breed/traits.h"
+#include "core/params/messages.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 
@@ -39,6 +41,21 @@ std::vector<std::string> lockable_parts(const Species& species) {
     name_parts(species.ground, "ground", names);
     name_parts(species.stages.front().model, "", names);
     return names;
+}
+
+std::vector<Problem> lock_problems(const Species& species, const BreedingParams& params) {
+    const std::vector<std::string> parts = lockable_parts(species);
+    std::vector<Problem> problems;
+    for (std::size_t i = 0; i < params.lock.size(); ++i) {
+        const std::string_view lock = params.lock[i];
+        if (std::find(parts.begin(), parts.end(), lock) != parts.end()) continue;
+        const std::string_view meant = closest(lock, parts);
+        report(problems, "/lock/" + std::to_string(i),
+               in_quotes(lock) + " is no part of these species" +
+                   (meant.empty() ? "; parts are such as surface.cap, silhouette, ring and size"
+                                  : "; did you mean " + in_quotes(meant) + "?"));
+    }
+    return problems;
 }
 
 }  // namespace sporeprint

@@ -52,6 +52,11 @@ static_assert(well_described<BreedingParams>());
 /// species and what is in them, with dots, in the order of their descriptions.
 [[nodiscard]] std::vector<std::string> lockable_parts(const Species& species);
 
+/// Returns the problems of locks that name no part of species of the family of this one, with paths
+/// "/lock/<i>".
+[[nodiscard]] std::vector<Problem> lock_problems(const Species& species,
+                                                 const BreedingParams& params);
+
 /// The draws and locks of one offspring. Every gene has a stream of its own, keyed by its path, so
 /// that neither a new gene nor a locked one changes another.
 class Genes {

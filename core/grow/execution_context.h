@@ -33,6 +33,8 @@ constexpr const char* name(Step step) {
     return nullptr;
 }
 
+class Atlas;
+
 /// Called when a step begins. The caller measures time, core has no clock.
 using Observer = std::function<void(Step)>;
 
@@ -41,6 +43,7 @@ struct Caches {
     GetOrCompute<ImageSet> images = uncached<ImageSet>;
     GetOrCompute<RawImages> paintings = uncached<RawImages>;  ///< inputs of image blending
     GetOrCompute<MorphSet> morphs = uncached<MorphSet>;  ///< correspondence of a set of species
+    GetOrCompute<Atlas> offspring = uncached<Atlas>;     ///< atlases of one bred species each
 };
 
 struct ExecutionContext {

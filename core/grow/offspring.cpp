@@ -24,21 +24,6 @@ namespace {
 /// How often the mutation of an outline is halved, and how often its way to the nearer parent.
 constexpr int halvings = 6;
 
-void require_parts(const Species& species, const BreedingParams& params) {
-    const std::vector<std::string> parts = lockable_parts(species);
-    std::vector<Problem> problems;
-    for (std::size_t i = 0; i < params.lock.size(); ++i) {
-        const std::string_view lock = params.lock[i];
-        if (std::find(parts.begin(), parts.end(), lock) != parts.end()) continue;
-        const std::string_view meant = closest(lock, parts);
-        report(problems, "/lock/" + std::to_string(i),
-               in_quotes(lock) + " is no part of these species" +
-                   (meant.empty() ? ", such as surface.cap"
-                                  : "; did you mean " + in_quotes(meant) + "?"));
-    }
-    if (!problems.empty()) throw InvalidInput(std::move(problems));
-}
-
 bool is_branched(const Species& species) {
     return std::holds_alternative<Branched>(species.stages.front().model.shape);
 }
@@ -82,7 +67,10 @@ class Shaping {
             out.outline = 0.5 * (out.outline + nearer);
         }
         out.outline = nearer;
-        if (!give_outlines(out)) throw GenerationError("an outline of a parent crosses itself");
+        if (!give_outlines(out))
+            throw Impossible(nearer == 0.0 ? "a" : "b",
+                             "its outline crosses itself, or it would as it grows; draw its stages "
+                             "so that each becomes the next");
     }
 
   private:
@@ -235,7 +223,8 @@ Offspring offspring(const Species& a, const Species& b, const BreedingParams& pa
                     const GetOrCompute<MorphSet>& morphs) {
     require_valid(params);
     require_one_family(a, b);
-    require_parts(a, params);
+    if (std::vector<Problem> problems = lock_problems(a, params); !problems.empty())
+        throw InvalidInput(std::move(problems));
     const Genes genes(params);
     const double size = drawn_size(a, b, genes);
     const Species scaled_a = scaled(a, size / size_of(a)), scaled_b = scaled(b, size / size_of(b));

@@ -25,7 +25,7 @@ struct Offspring {
 /// sources.
 ///
 /// throws  InvalidInput (path "/lock/<i>") for a lock that names no part, Impossible (path "b") for
-///         species of two families
+///         species of two families, and (path "a" or "b") if the outlines of a parent cross itself
 /// cost    about 3 ms, and the correspondence of the parents unless it is cached
 [[nodiscard]] Offspring offspring(const Species& a, const Species& b, const BreedingParams& params,
                                   const GetOrCompute<MorphSet>& morphs = uncached<MorphSet>);

@@ -140,6 +140,18 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     if (correspondence?.family === "swept") void correspondence.outlines.a.cap;
     await client.POST("/v1/morphs/{a}/{b}.glb", { ...pair, body: { ...morph, ...small }, ...binary });
 
+    const parents = { path: { a: id, b: other } }, genes = { seed: 7, share: 0.5, mutation: 0.2, lock: "surface.cap,size" };
+    await client.HEAD("/v1/offspring/{a}/{b}.json", { params: { ...parents, query: genes } });
+    const { data: child } = await client.GET("/v1/offspring/{a}/{b}.json", { params: { ...parents, query: genes } });
+    if (!child?.stages?.length) throw new Error("the offspring is no whole species");
+    const offspring = { params: { ...parents, query: { ...genes, ...small, individual: 3 } } };
+    await both(client.HEAD("/v1/offspring/{a}/{b}.glb", offspring), client.GET("/v1/offspring/{a}/{b}.glb", { ...offspring, ...binary }));
+    const grandchild = { a: id, b: other, ...genes, lock: ["surface.cap"] };
+    await client.POST("/v1/offspring.json", { body: grandchild });
+    await client.POST("/v1/offspring.glb", { body: { ...grandchild, ...small }, ...binary });
+    const looks = { params: { ...parents, query: { ...genes, ...small, ...drawn } } };
+    await both(client.HEAD("/v1/offspring/{a}/{b}.png", looks), client.GET("/v1/offspring/{a}/{b}.png", { ...looks, ...binary }));
+
     await both(client.HEAD("/v1/colonies", {}), client.GET("/v1/colonies", {}));
     await both(client.HEAD("/v1/colonies/schema", {}), client.GET("/v1/colonies/schema", {}));
     const some = { params: { path: { mix: id }, query: { ...small, count: 3 } } };

@@ -40,9 +40,11 @@ export class Generator {
         }
         if ("const" in schema) return schema.const;
         if (schema.enum) return dice.pick(schema.enum);
+        if ((name === "a" || name === "b") && schema.oneOf) return dice.pick(dice.pick(this.lists.families)); // a parent
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
         if (name === "species") return this.someSpecies();
         if (name === "photo") return dice.pick(this.lists.photos);
+        if (name === "lock") return schema.type === "array" ? ["surface.cap", "size"].slice(dice.below(3)) : dice.pick(["surface.cap", "size,surface.stem", "deformation.bend_deg"]);
         if (schema.type === "array") {
             const length = schema.minItems ?? Math.min(schema.maxItems ?? 3, dice.below(4));
             const list = Array.from({ length }, () => this.right(schema.items, "", depth + 1));
