@@ -183,6 +183,11 @@ Plan plan_with_library(Context& context, const Request& request, const RoutedReq
     }
 }
 
+ServiceOptions with_library(ServiceOptions options, bool has_library) {
+    options.has_library = has_library;
+    return options;
+}
+
 }  // namespace
 
 struct Service::Parts {
@@ -211,8 +216,8 @@ struct Service::Parts {
 
 Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
                  std::shared_ptr<Library> library)
-    : parts_(std::make_unique<Parts>(std::move(atlas), options, std::make_shared<Store>(options),
-                                     std::move(library))) {}
+    : parts_(std::make_unique<Parts>(std::move(atlas), with_library(options, library != nullptr),
+                                     std::make_shared<Store>(options), std::move(library))) {}
 
 Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
     : parts_(std::make_unique<Parts>(std::move(atlas), other.parts_->context.options,

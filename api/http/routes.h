@@ -36,6 +36,7 @@ struct DocumentInputs {
     const RouteTable& routes;
     bool signed_urls = false;
     std::string_view base_path;
+    bool has_library = false;  ///< of users' species
 };
 
 /// Whether a route needs a token (`Authorization: Bearer`).

@@ -26,6 +26,7 @@ struct ServiceOptions {
     std::string allow_origin = "*";
     std::string base_path;     ///< path under which clients see the service: "" or "/a/b"
     bool signed_urls = false;  ///< URLs need a signature; responses contain none
+    bool has_library = false;  ///< of users' species; set by the Service
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
     std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< 3 bytes each: 189 MB
 };

@@ -39,20 +39,22 @@ bool is_of_breeding(std::string_view name) {
 /// Returns a parent; nothing if it is unknown.
 const Species* species_of(const Parent& parent, const Atlas& atlas) {
     if (parent.own) return parent.own.get();
-    const AtlasEntry* const entry = atlas.find(parent.id);
+    const AtlasEntry* const entry = find_species(parent.id, atlas);
     return entry ? &entry->species : nullptr;
 }
 
-/// Adds errors for unknown species, and for two families.
+/// Replaces the names of the parents by their ids. Adds errors for unknown species, and for two families.
 ///
 /// mark  "" for parameters of a URL, "/" for members of a body
-void check_parents(const OffspringSpec& spec, const std::string& mark, const Atlas& atlas,
+void check_parents(OffspringSpec& spec, const std::string& mark, const Atlas& atlas,
                    ValidationErrors& errors) {
     const Species* const first = species_of(spec.a, atlas);
     const Species* const second = species_of(spec.b, atlas);
     if (!first) errors.add(404, mark + "a", unknown_species(spec.a.id, atlas));
     if (!second) errors.add(404, mark + "b", unknown_species(spec.b.id, atlas));
     if (!first || !second) return;
+    if (!spec.a.own) spec.a.id = first->id.string();
+    if (!spec.b.own) spec.b.id = second->id.string();
     const Family family = family_of(*first), other = family_of(*second);
     if (family != other)
         errors.add(422, mark + "b",

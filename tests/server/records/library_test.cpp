@@ -175,6 +175,8 @@ TEST_F(LibraryRoutes, PublishedSpeciesMixMorphAndFormColonies) {
           "/v1/morphs/~kaja.red_bolete@1/amanita_muscaria",
           "/v1/morphs/amanita_muscaria/~kaja.red_bolete",
           "/v1/colonies/~kaja.red_bolete@1.json?count=3",
+          "/v1/offspring/~kaja.red_bolete/amanita_muscaria.json?seed=3",
+          "/v1/offspring/amanita_muscaria/~kaja.red_bolete@1.glb?seed=3&lod=3&textures=none",
           "/v1/mushrooms/~kaja.red_bolete@1/base_color.jpg?texture_size=128"}) {
         const Response response = ask("GET", target);
         EXPECT_EQ(response.status, 200) << target << ": " << text_of(response);
