@@ -22,6 +22,17 @@ start_server() {
     return 1
 }
 
+# Prints the token that a server with an empty library prints once, when it is ready.
+first_token() {
+    local token
+    for _ in $(seq 100); do
+        token=$(sed -nE 's/.*#token=(spk_.*)$/\1/p' "$server_log")
+        [ -z "$token" ] || break
+        sleep 0.1
+    done
+    echo "$token"
+}
+
 # Asks for a graceful end and returns the server's exit status.
 stop_server() {
     [ -n "${server_pid:-}" ] || return 0

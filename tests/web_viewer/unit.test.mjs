@@ -19,6 +19,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "designer/details",
             "designer/findings",
             "designer/gesture",
+            "designer/library",
             "designer/outline",
             "designer/paint",
             "designer/service",
@@ -971,6 +972,30 @@ test("a pointer of the service finds its place on the designer's page", () => {
     assert.equal(page.placeOf("/height_m"), "height");
     assert.equal(page.placeOf("/template"), "template");
     assert.equal(page.placeOf("/elsewhere"), undefined);
+});
+
+test("a name of the library resembles a title, and the library allows it", () => {
+    const named = new RegExp(`^${page.namePattern}$`);
+    const names = {
+        "Red bolete": "red_bolete",
+        "King Alfred's cakes": "king_alfred_s_cakes",
+        "Champiñón  de París": "champinon_de_paris",
+        "3rd _ attempt": "rd_attempt",
+        "": "my_mushroom",
+        ポルチーニ: "my_mushroom",
+        [`${"x".repeat(23)} y`]: "x".repeat(23),
+    };
+    for (const [title, name] of Object.entries(names)) {
+        assert.equal(page.nameLike(title), name);
+        assert.match(name, named);
+    }
+});
+
+test("a token is taken from the fragment of an address, and from nothing else", () => {
+    const token = `spk_abcdefgh_${"A".repeat(43)}`;
+    assert.equal(page.tokenIn(`#token=${token}`), token);
+    for (const other of ["", "#", "#token=", `?token=${token}`, `#token=${token}x`, "#token=<b>"])
+        assert.equal(page.tokenIn(other), undefined, other);
 });
 
 test("points outside of a picture come to its border, as whole pixels", () => {

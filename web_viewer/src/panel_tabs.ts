@@ -14,7 +14,9 @@ export class PanelTabs<Name extends string> {
                 const steps: Record<string, number> = { ArrowRight: 1, ArrowLeft: -1 };
                 const step = steps[key];
                 if (step === undefined) return;
-                const next = panels[(index + step + panels.length) % panels.length] ?? name;
+                const shown = (one: Name): boolean => !byId(`tab-${one}`).hidden;
+                const after = [...panels.slice(index + 1), ...panels.slice(0, index)].filter(shown);
+                const next = after.at(step > 0 ? 0 : -1) ?? name;
                 this.choose(next);
                 byId(`tab-${next}`).focus();
             });

@@ -29,6 +29,7 @@ import {
     type Tool,
 } from "./gesture";
 import { forgetDraft, loadDraft, saveDraft } from "./draft";
+import { LibraryPanel } from "./library_panel";
 import { LiveModel } from "./live_model";
 import { AxisEditor } from "./axis_editor";
 import {
@@ -160,6 +161,7 @@ export class Designer {
     private formsRequested = false;
     /** Lines are drawn, or points of the outline or of the axis are moved. */
     private mode: "draw" | "outline" | "bend" = "draw";
+    private readonly library = new LibraryPanel((file) => this.open(file));
     private photograph: Source | undefined;
     private address: string | undefined;
     private opening: AbortController | undefined;
@@ -239,12 +241,14 @@ export class Designer {
         });
         const everyAge = byId<HTMLInputElement>("every-age");
         this.details = new DetailsPanel(() => everyAge.checked, forms);
-        const panels = ["found", "paint", "ornaments", "more"] as const;
+        const panels = ["found", "paint", "ornaments", "more", "library"] as const;
         new PanelTabs(panels, (panel) => {
-            byId("of-stage").hidden = panel === "found";
-            if (panel !== "found") void this.makeForms();
+            const isForm = panel !== "found" && panel !== "library";
+            byId("of-stage").hidden = !isForm;
+            if (isForm) void this.makeForms();
         });
         new SpeciesChooser((file) => void this.open(file));
+        void this.library.begin();
         for (const tool of tools) {
             const { label, title } = words[tool];
             const button = make("button", { type: "button", "data-tool": tool, title }, label);
@@ -307,6 +311,7 @@ export class Designer {
 
     private begin(photograph: Source, address: string): void {
         this.photograph?.forget();
+        this.library.forget();
         if (this.address) URL.revokeObjectURL(this.address);
         this.photograph = photograph;
         this.address = address;
@@ -958,6 +963,7 @@ export class Designer {
         this.trace = trace;
         this.stale = false;
         this.sketch.showTrace(trace);
+        this.library.show(trace?.species);
         this.findings.show(trace, this.history.value, this.shownStage);
         if (!trace && this.mode !== "draw" && this.photograph?.drawable)
             this.use(this.missing() ?? "keep");

@@ -1,0 +1,116 @@
+// The library of the service: the user's species, as drafts and as published versions.
+import { getJson, send } from "../http";
+import type { Species } from "./service";
+
+export interface Quota {
+    owner: string;
+    scope: "read" | "write" | "admin";
+    species: number;
+    max_species: number;
+    bytes: number;
+    max_bytes: number;
+}
+
+/** A species in lists and after writes. */
+export interface StoredSpecies {
+    /** "~owner.name" */
+    id: string;
+    name: string;
+    title: string;
+    /** Number of the newest published version; 0 for none. */
+    newest: number;
+    updated_s: number;
+    links: { self: string; published?: string; model?: string };
+    /** Entity tag of the draft, after writes. */
+    draft?: string;
+}
+
+/** A draft as it was read, and its entity tag. */
+export interface Draft {
+    text: string;
+    etag: string;
+}
+
+/** Names of species in the library, as the service allows them. */
+export const namePattern = "[a-z][a-z0-9_]{0,23}";
+
+/** Returns a name that the library allows and that resembles a text. */
+export function nameLike(text: string): string {
+    const name = text
+        .normalize("NFKD")
+        .replace(/\p{M}/gu, "")
+        .toLowerCase()
+        .replace(/[^a-z0-9]+/g, "_")
+        .replace(/^[_0-9]+/, "")
+        .slice(0, 24)
+        .replace(/_+$/, "");
+    return name || "my_mushroom";
+}
+
+/** Returns the token in a fragment such as "#token=spk_...", if it has one. */
+export function tokenIn(fragment: string): string | undefined {
+    return /^#token=(spk_[\w-]{52})$/.exec(fragment)?.[1];
+}
+
+/** Returns true if the service has a library. */
+export async function hasLibrary(): Promise<boolean> {
+    const { links } = await getJson<{ links: Record<string, string> }>("v1");
+    return "library" in links;
+}
+
+/** What the holder of a token can do. */
+export class Library {
+    constructor(private readonly token: string) {}
+
+    quota(): Promise<Quota> {
+        return this.json<Quota>("v1/library/quota");
+    }
+
+    /** Returns all species of the owner, drafts too. */
+    async mine(): Promise<StoredSpecies[]> {
+        const all: StoredSpecies[] = [];
+        for (let after: string | null = ""; after !== null; ) {
+            const from: string = after && `&after=${encodeURIComponent(after)}`;
+            const page: { species: StoredSpecies[]; next: string | null } = await this.json(
+                `v1/library?mine=true&limit=100${from}`,
+            );
+            all.push(...page.species);
+            after = page.next;
+        }
+        return all;
+    }
+
+    async draft(id: string): Promise<Draft> {
+        const response = await this.send(`v1/library/${id}`);
+        return { text: await response.text(), etag: response.headers.get("etag") ?? "" };
+    }
+
+    /** Stores a species under its id: a new one, or in place of the draft with this entity tag.
+     *
+     *  throws  RequestFailed with status 412 if the draft is another one by now, 409 if a new name
+     *          is taken */
+    async save(species: Species, owner: string, etag: string | undefined): Promise<StoredSpecies> {
+        const body = JSON.stringify(species);
+        return etag === undefined
+            ? this.json("v1/library", { method: "POST", body })
+            : this.json(`v1/library/~${owner}.${species.id}`, { method: "PUT", body }, etag);
+    }
+
+    /** Publishes the draft with this entity tag as the next version. */
+    publish(id: string, etag: string, note: string): Promise<StoredSpecies> {
+        const body = JSON.stringify({ note });
+        return this.json(`v1/library/${id}/publish`, { method: "POST", body }, etag);
+    }
+
+    private async json<T>(path: string, init: RequestInit = {}, etag?: string): Promise<T> {
+        return (await (await this.send(path, init, etag)).json()) as T;
+    }
+
+    private send(path: string, init: RequestInit = {}, etag?: string): Promise<Response> {
+        const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
+        if (init.body) headers["Content-Type"] = "application/json";
+        if (etag !== undefined) headers["If-Match"] = etag;
+        return send(path, { ...init, headers });
+    }
+}
+

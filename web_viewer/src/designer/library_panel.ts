@@ -1,0 +1,350 @@
+// The panel of the library: a token, the user's species, saving and publishing.
+import { byId, make } from "../dom";
+import { asRequestFailed, type RequestFailed } from "../http";
+import { announce } from "../status_line";
+import {
+    hasLibrary,
+    Library,
+    nameLike,
+    namePattern,
+    tokenIn,
+    type Quota,
+    type StoredSpecies,
+} from "./library";
+import type { Species } from "./service";
+
+const storageKey = "sporeprint-token";
+
+/** Time after the last change until a species of the library is saved, milliseconds. */
+const saveDelayMs = 2000;
+
+/** The draft in the library that is worked on. */
+interface Link {
+    id: string;
+    name: string;
+    etag: string;
+    /** As it was saved last. */
+    text: string;
+}
+
+export class LibraryPanel {
+    private library: Library | undefined;
+    private quota: Quota | undefined;
+    private link: Link | undefined;
+    private species: Species | undefined;
+    private saving: ReturnType<typeof setTimeout> | undefined;
+    /** Writes follow each other, so that each knows the entity tag of the one before. */
+    private writing: Promise<void> = Promise.resolve();
+
+    private readonly token = make("input", {
+        type: "password",
+        id: "token",
+        autocomplete: "off",
+        spellcheck: "false",
+        "aria-describedby": "token-hint library-error",
+    });
+    private readonly stay = make("input", { type: "checkbox", id: "token-stay" });
+    private readonly use = make("button", { type: "submit" }, "Use it");
+    private readonly name = make("input", {
+        type: "text",
+        id: "library-name",
+        pattern: namePattern,
+        maxlength: 24,
+        autocomplete: "off",
+        spellcheck: "false",
+        "aria-describedby": "name-hint library-error",
+    });
+    private readonly note = make("input", { type: "text", id: "library-note", maxlength: 200 });
+    private readonly save = make("button", { type: "button", id: "library-save" }, "Save draft");
+    private readonly publish = make(
+        "button",
+        { type: "button", id: "library-publish", class: "main" },
+        "Publish",
+    );
+    private readonly error = make("p", {
+        id: "library-error",
+        class: "validation-error",
+        role: "alert",
+        hidden: true,
+    });
+    private readonly state = make("p", { id: "library-state", class: "hint", role: "status" });
+    private readonly conflict = make("div", { class: "row", id: "library-conflict", hidden: true });
+    private readonly published = make("p", { id: "library-published", hidden: true });
+    private readonly list = make("ul", { id: "library-list", class: "species-list" });
+    private readonly owner = make("p", { class: "hint", id: "library-owner" });
+    private readonly entrance: HTMLFormElement;
+    private readonly desk: HTMLElement;
+
+    /** `opened` is called with a species of the library. */
+    constructor(private readonly opened: (file: File) => Promise<void>) {
+        this.entrance = make(
+            "form",
+            { id: "library-entrance" },
+            make("label", { for: "token" }, "Token"),
+            this.token,
+            make(
+                "p",
+                { id: "token-hint", class: "hint" },
+                "It begins with spk_. The operator of the service gives it out; a server of your own prints it at its first start.",
+            ),
+            make("label", { class: "check" }, this.stay, " Stay signed in on this computer"),
+            make("div", { class: "row" }, this.use),
+        );
+        const leave = make("button", { type: "button", id: "library-leave" }, "Sign out");
+        this.desk = make(
+            "div",
+            { id: "library-desk", hidden: true },
+            make("div", { class: "bar-row" }, this.owner, leave),
+            make("label", { for: "library-name" }, "Name"),
+            this.name,
+            make(
+                "p",
+                { id: "name-hint", class: "hint" },
+                "a to z, 0 to 9 and _, the first a letter. A published name never means something else.",
+            ),
+            make("label", { for: "library-note" }, "What is new"),
+            this.note,
+            make("div", { class: "row" }, this.save, this.publish),
+            this.state,
+            this.conflict,
+            this.published,
+            make("h2", {}, "Your species"),
+            this.list,
+        );
+        byId("library").append(this.entrance, this.desk, this.error);
+        this.entrance.addEventListener("submit", (event) => {
+            event.preventDefault();
+            void this.enter(this.token.value.trim(), this.stay.checked);
+        });
+        leave.addEventListener("click", () => this.leave());
+        this.save.addEventListener("click", () => void this.write(() => this.saved()));
+        this.publish.addEventListener("click", () => void this.write(() => this.publishNow()));
+        this.name.addEventListener("input", () => this.showState());
+    }
+
+    /** Shows the panel if the service has a library, and signs in with a token of the address or of the last visit. */
+    async begin(): Promise<void> {
+        const given = tokenIn(location.hash);
+        // The address is in the history of the browser; the token should not be.
+        if (given) history.replaceState(null, "", location.pathname + location.search);
+        try {
+            if (!(await hasLibrary())) return;
+        } catch {
+            return; // A service that cannot be reached is reported where it is needed.
+        }
+        byId("tab-library").hidden = false;
+        const stored = localStorage.getItem(storageKey);
+        const known = given ?? sessionStorage.getItem(storageKey) ?? stored;
+        if (known) await this.enter(known, !given && known === stored);
+    }
+
+    /** Shows what is worked on; a species of the library is saved a while after its last change. */
+    show(species: Species | undefined): void {
+        this.species = species;
+        clearTimeout(this.saving);
+        if (species && !this.link && !this.name.value)
+            this.name.value = nameLike(species.facts?.common_name ?? species.id);
+        this.showState();
+        const { link } = this;
+        if (!species || !link || this.textOf(link.name) === link.text || !this.conflict.hidden) return;
+        this.saving = setTimeout(() => void this.write(() => this.saved()), saveDelayMs);
+    }
+
+    /** Tells that something else is worked on, which is not in the library yet. */
+    forget(): void {
+        this.link = undefined;
+        this.name.value = "";
+        this.conflict.hidden = this.published.hidden = true;
+        this.say("");
+    }
+
+    private async enter(token: string, stay: boolean): Promise<void> {
+        this.showError(undefined);
+        const library = new Library(token);
+        try {
+            this.quota = await library.quota();
+            this.library = library;
+            (stay ? localStorage : sessionStorage).setItem(storageKey, token);
+            this.token.value = "";
+            this.entrance.hidden = true;
+            this.desk.hidden = false;
+            this.showOwner();
+            this.showState();
+            await this.showList();
+            announce(`Signed in as ${this.quota.owner}.`);
+        } catch (error) {
+            this.leave();
+            this.showError(asRequestFailed(error, "The token cannot be used"));
+        }
+    }
+
+    private leave(): void {
+        sessionStorage.removeItem(storageKey);
+        localStorage.removeItem(storageKey);
+        clearTimeout(this.saving);
+        this.library = this.quota = this.link = undefined;
+        this.entrance.hidden = false;
+        this.desk.hidden = true;
+    }
+
+    /** Does one write after those before it, and shows how it ended. */
+    private write(act: () => Promise<void>): Promise<void> {
+        clearTimeout(this.saving);
+        this.writing = this.writing.then(async () => {
+            this.showError(undefined);
+            this.save.disabled = this.publish.disabled = true;
+            try {
+                await act();
+            } catch (error) {
+                const failed = asRequestFailed(error, "It cannot be saved");
+                if (failed.status === 412) this.showConflict();
+                else this.showError(failed);
+            } finally {
+                this.showState();
+            }
+        });
+        return this.writing;
+    }
+
+    private textOf(name: string): string {
+        return JSON.stringify({ ...this.species, id: name });
+    }
+
+    /** Saves what is worked on, unless it is saved already. */
+    private async saved(): Promise<void> {
+        const { library, quota, species } = this;
+        if (!library || !quota || !species) return;
+        const name = this.name.value.trim();
+        if (!new RegExp(`^${namePattern}$`).test(name)) {
+            this.name.focus();
+            throw new Error(
+                `'${name}' cannot be a name; allowed are 1 to 24 characters a to z, 0 to 9 and _, the first a letter`,
+            );
+        }
+        const text = this.textOf(name);
+        const link = this.link?.name === name ? this.link : undefined;
+        if (link?.text === text) return;
+        this.say("Saving …");
+        const stored = await library.save({ ...species, id: name }, quota.owner, link?.etag);
+        this.link = { id: stored.id, name, etag: stored.draft ?? "", text };
+        this.say(`${stored.id} · draft, saved ${new Date().toLocaleTimeString()}`);
+        if (!link) await this.showList();
+    }
+
+    private async publishNow(): Promise<void> {
+        await this.saved();
+        const { library, link } = this;
+        if (!library || !link) return;
+        this.say("Publishing …");
+        const stored = await library.publish(link.id, link.etag, this.note.value.trim());
+        this.note.value = "";
+        this.showPublished(stored);
+        this.say(`${stored.id} · version ${stored.newest} is published`);
+        announce(`Version ${stored.newest} is published.`);
+        await this.showList();
+    }
+
+    private showPublished({ id, newest, links }: StoredSpecies): void {
+        // Without its slash the address is relative, so that it is valid under any prefix.
+        const path = (links.model ?? "").replace(/^.*?\/(v1\/)/, "$1");
+        const address = new URL(path, document.baseURI).href;
+        const copy = make("button", { type: "button" }, "Copy address");
+        copy.addEventListener("click", () => {
+            void navigator.clipboard
+                .writeText(address)
+                .then(() => announce("The address is copied."))
+                .catch(() => announce(`The address is ${address}`));
+        });
+        this.published.replaceChildren(
+            `${id}@${newest}: `,
+            make("a", { href: path, id: "library-address" }, address),
+            " ",
+            copy,
+        );
+        this.published.hidden = false;
+    }
+
+    /** Offers what can be done if somebody else has saved the draft meanwhile. */
+    private showConflict(): void {
+        const choice = (label: string, act: () => Promise<void>): HTMLButtonElement => {
+            const button = make("button", { type: "button" }, label);
+            button.addEventListener("click", () => {
+                this.conflict.hidden = true;
+                void this.write(act);
+            });
+            return button;
+        };
+        const { library, link } = this;
+        if (!library || !link) return;
+        this.say(`${link.id} was saved elsewhere since it was opened here.`);
+        this.conflict.replaceChildren(
+            choice("Keep mine", async () => {
+                link.etag = (await library.draft(link.id)).etag;
+                link.text = "";
+                await this.saved();
+            }),
+            choice("Take theirs", () => this.open(link.id, link.name)),
+            choice("Save mine under another name", async () => {
+                this.link = undefined;
+                this.name.value = `${this.name.value.slice(0, 21)}_2`;
+                await this.saved();
+            }),
+        );
+        this.conflict.hidden = false;
+        (this.conflict.firstElementChild as HTMLElement | null)?.focus();
+    }
+
+    private async open(id: string, name: string): Promise<void> {
+        const { library } = this;
+        if (!library) return;
+        const { text, etag } = await library.draft(id);
+        await this.opened(new File([text], `${name}.json`, { type: "application/json" }));
+        const species = JSON.parse(text) as Species;
+        this.link = { id, name, etag, text: JSON.stringify({ ...species, id: name }) };
+        this.name.value = name;
+        this.say(`${id} · draft`);
+    }
+
+    private async showList(): Promise<void> {
+        const all = (await this.library?.mine()) ?? [];
+        this.list.replaceChildren(
+            ...all.map(({ id, name, title, newest }) => {
+                const state = newest > 0 ? `published: version ${newest}` : "draft";
+                const button = make(
+                    "button",
+                    { type: "button", "data-library": id },
+                    make("span", {}, make("b", {}, title || name), make("i", {}, `${id} · ${state}`)),
+                );
+                button.addEventListener("click", () => void this.write(() => this.open(id, name)));
+                return make("li", {}, button);
+            }),
+        );
+        if (all.length === 0) this.list.replaceChildren(make("li", { class: "hint" }, "None yet."));
+    }
+
+    private showOwner(): void {
+        const { quota } = this;
+        if (!quota) return;
+        const rights = quota.scope === "read" ? ", may read only" : "";
+        this.owner.textContent = `${quota.owner}${rights}: ${quota.species} of ${quota.max_species} species`;
+    }
+
+    private showState(): void {
+        const writable = !!this.species && !!this.quota && this.quota.scope !== "read";
+        this.save.disabled = this.publish.disabled = !writable;
+        const nothing = "Open or trace a mushroom, then it can be saved here.";
+        if (!this.species) this.say(nothing);
+        else if (this.state.textContent === nothing) this.say("");
+    }
+
+    private say(text: string): void {
+        this.state.textContent = text;
+    }
+
+    private showError(failed: RequestFailed | undefined): void {
+        const items = failed?.items.map(({ parameter, detail }) => `${parameter}: ${detail}`) ?? [];
+        this.error.hidden = !failed;
+        this.error.textContent = failed ? [failed.message, ...items.slice(0, 5)].join("; ") : "";
+        if (failed) this.say("");
+    }
+}
