@@ -1445,12 +1445,16 @@ test("a model stands on the photograph where it was traced, along its own axis",
 
 test("the window on a picture zooms about a place and never leaves the picture", () => {
     const extent = { width: 1000, height: 500 };
-    const whole = { x: 0, y: 0, ...extent };
-    const near = page.zoomed(whole, extent, 4, [250, 125]);
+    const whole = page.boundsWith(extent, undefined);
+    assert.deepEqual(whole, { x: 0, y: 0, ...extent });
+    assert.deepEqual(page.boundsWith(extent, { x: 10, y: 10, width: 300, height: 300 }), whole);
+    const lower = page.boundsWith(extent, { x: 10, y: 10, width: 300, height: 600 });
+    assert.deepEqual(lower, { x: 0, y: 0, width: 1000, height: 650 });
+    const near = page.zoomed(whole, whole, 4, [250, 125]);
     assert.deepEqual(near, { x: 187.5, y: 93.75, width: 250, height: 125 });
-    assert.deepEqual(page.zoomed(near, extent, 0.1, [0, 0]), whole);
-    assert.equal(page.zoomed(near, extent, 1e9, [1000, 500]).width, 1000 / 16);
-    const box = page.viewOf({ x: 900, y: 400, width: 50, height: 90 }, extent);
+    assert.deepEqual(page.zoomed(near, whole, 0.1, [0, 0]), whole);
+    assert.equal(page.zoomed(near, whole, 1e9, [1000, 500]).width, 1000 / 16);
+    const box = page.viewOf({ x: 900, y: 400, width: 50, height: 90 }, whole);
     assert.ok(box.x + box.width <= 1000 && box.y + box.height <= 500 && box.height >= 90);
 });
 

@@ -11,7 +11,7 @@ import { showProgress } from "../progress_box";
 import { showScaleBar } from "../scale_bar";
 import { Stage } from "../stage";
 import { announce } from "../status_line";
-import { Sketch } from "./sketch";
+import { Sketch, type View } from "./sketch";
 import { Findings } from "./findings";
 import {
     missingLine,
@@ -712,23 +712,24 @@ export class Designer {
     }
 
     private comeNear(): void {
+        const box = this.boxOfOutline();
+        if (box) this.sketch.zoomTo(box);
+    }
+
+    /** Returns what of the picture the outline of the shown stage takes. */
+    private boxOfOutline(): View | undefined {
         const model = this.stages[this.shownStage]?.model;
         const frame = this.tracedFrame;
         const place = model && frame && placed(model, frame);
-        if (!model?.silhouette || !place) return;
+        if (!model?.silhouette || !place) return undefined;
         const points = polylineOf(model.silhouette).flatMap((each) => [
             place.frame.toPhoto(each, -1),
             place.frame.toPhoto(each, 1),
         ]);
         const xs = points.map(([x]) => x);
         const ys = points.map(([, y]) => y);
-        const [left, top] = [Math.min(...xs), Math.min(...ys)];
-        this.sketch.zoomTo({
-            x: left,
-            y: top,
-            width: Math.max(...xs) - left,
-            height: Math.max(...ys) - top,
-        });
+        const [x, y] = [Math.min(...xs), Math.min(...ys)];
+        return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
     }
 
     /** Lets the service judge edited outlines, that of the shown stage first. */
@@ -778,6 +779,7 @@ export class Designer {
         const traced = this.tracedFrame;
         const { mode } = this;
         const isShown = mode !== "draw" && model && silhouette && traced;
+        this.sketch.include(isShown ? this.boxOfOutline() : undefined);
         this.outline.show(
             isShown && mode === "outline"
                 ? this.shownOutline(model, silhouette, traced)

@@ -38,48 +38,59 @@ export interface View {
 const mostZoom = 16;
 const zoomStep = 1.4;
 
-/** Returns a view that is nearer by a factor, with a place of the picture where it was. */
-export function zoomed(view: View, extent: Extent, factor: number, [x, y]: Point): View {
-    const least = extent.width / mostZoom;
-    const width = Math.min(Math.max(view.width / factor, least), extent.width);
+/** Returns a view that is nearer by a factor, with a place of the picture where it was; never more
+ *  than the bounds. */
+export function zoomed(view: View, bounds: View, factor: number, [x, y]: Point): View {
+    const least = bounds.width / mostZoom;
+    const width = Math.min(Math.max(view.width / factor, least), bounds.width);
     const scale = width / view.width;
-    const height = (width * extent.height) / extent.width;
+    const height = (width * bounds.height) / bounds.width;
     return limited(
         { x: x - (x - view.x) * scale, y: y - (y - view.y) * scale, width, height },
-        extent,
+        bounds,
     );
 }
 
-/** Returns a view that is inside of the picture. */
-function limited(view: View, { width, height }: Extent): View {
+/** Returns a view that is inside of the bounds. */
+function limited(view: View, bounds: View): View {
+    const within = (value: number, low: number, room: number): number =>
+        Math.min(Math.max(value, low), low + Math.max(room, 0));
     return {
         ...view,
-        x: Math.min(Math.max(view.x, 0), width - view.width),
-        y: Math.min(Math.max(view.y, 0), height - view.height),
+        x: within(view.x, bounds.x, bounds.width - view.width),
+        y: within(view.y, bounds.y, bounds.height - view.height),
     };
 }
 
-/** Returns the view that has a box in it with a margin, in the shape of the picture. */
-export function viewOf(box: View, extent: Extent): View {
+/** Returns the view that has a box in it with a margin, in the shape of the bounds. */
+export function viewOf(box: View, bounds: View): View {
     const margin = 1.3;
     const width = Math.min(
         Math.max(
             box.width * margin,
-            (box.height * margin * extent.width) / extent.height,
-            extent.width / mostZoom,
+            (box.height * margin * bounds.width) / bounds.height,
+            bounds.width / mostZoom,
         ),
-        extent.width,
+        bounds.width,
     );
-    const height = (width * extent.height) / extent.width;
-    return limited(
-        {
-            x: box.x + box.width / 2 - width / 2,
-            y: box.y + box.height / 2 - height / 2,
-            width,
-            height,
-        },
-        extent,
-    );
+    const height = (width * bounds.height) / bounds.width;
+    const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    return limited({ x: middle.x - width / 2, y: middle.y - height / 2, width, height }, bounds);
+}
+
+/** Returns the bounds of a picture and of a box, which has a margin where it is outside. */
+export function boundsWith({ width, height }: Extent, box: View | undefined): View {
+    if (!box) return { x: 0, y: 0, width, height };
+    const margin = 0.04 * Math.max(width, height);
+    const before = (value: number): number => (value < 0 ? value - margin : 0);
+    const after = (value: number, most: number): number => (value > most ? value + margin : most);
+    const [x, y] = [before(box.x), before(box.y)];
+    return {
+        x,
+        y,
+        width: after(box.x + box.width, width) - x,
+        height: after(box.y + box.height, height) - y,
+    };
 }
 
 /** Movement of the pointer that makes a line of a click, pixels of the screen. */
@@ -128,7 +139,8 @@ export class Sketch {
     private press: Press | undefined;
     private cursor: Point = [0, 0];
     private idle_ = false;
-    private view: View = { x: 0, y: 0, width: 1, height: 1 };
+    private bounds: View = { x: 0, y: 0, width: 1, height: 1 };
+    private view = this.bounds;
     private readonly fingers = new Map<number, { x: number; y: number }>();
     private picking: ((place: Point | undefined) => void) | undefined;
 
@@ -157,8 +169,8 @@ export class Sketch {
         this.extent = extent;
         const { width, height } = extent;
         this.pick(undefined);
-        this.view = { x: 0, y: 0, width, height };
-        this.applyView();
+        this.bounds = boundsWith(extent, undefined);
+        this.zoomWhole();
         this.image.setAttribute("href", address);
         this.image.setAttribute("width", String(width));
         this.image.setAttribute("height", String(height));
@@ -210,7 +222,7 @@ export class Sketch {
     zoom(factor: number, about?: Point): void {
         const { x, y, width, height } = this.view;
         const middle: Point = [x + width / 2, y + height / 2];
-        this.view = zoomed(this.view, this.extent, factor, about ?? middle);
+        this.view = zoomed(this.view, this.bounds, factor, about ?? middle);
         this.applyView();
     }
 
@@ -224,15 +236,22 @@ export class Sketch {
 
     /** Shows the whole picture. */
     zoomWhole(): void {
-        this.view = { x: 0, y: 0, width: this.extent.width, height: this.extent.height };
+        this.view = this.bounds;
+        this.applyView();
+    }
+
+    /** Lets a box be shown also where it is outside of the picture. */
+    include(box: View | undefined): void {
+        const isWhole = this.view.width >= this.bounds.width;
+        this.bounds = boundsWith(this.extent, box);
+        this.view = isWhole ? this.bounds : zoomed(this.view, this.bounds, 1, [0, 0]);
         this.applyView();
     }
 
     /** Comes near to a box if it would be small, and shows the whole picture otherwise. */
     zoomTo(box: View): void {
-        const whole: View = { x: 0, y: 0, width: this.extent.width, height: this.extent.height };
-        const near = viewOf(box, this.extent);
-        this.view = near.width < 0.5 * whole.width ? near : whole;
+        const near = viewOf(box, this.bounds);
+        this.view = near.width < 0.5 * this.bounds.width ? near : this.bounds;
         this.applyView();
     }
 
@@ -243,7 +262,7 @@ export class Sketch {
             x > view.x && x < view.x + view.width && y > view.y && y < view.y + view.height;
         if (inView) return;
         const moved = { ...view, x: x - view.width / 2, y: y - view.height / 2 };
-        this.view = limited(moved, this.extent);
+        this.view = limited(moved, this.bounds);
         this.applyView();
     }
 
@@ -330,7 +349,7 @@ export class Sketch {
         const to = this.exactly({ clientX: (c.x + d.x) / 2, clientY: (c.y + d.y) / 2 });
         const [dx, dy] = [to[0] - middle[0], to[1] - middle[1]];
         const shifted = { ...this.view, x: this.view.x - dx, y: this.view.y - dy };
-        this.view = zoomed(shifted, this.extent, factor, middle);
+        this.view = zoomed(shifted, this.bounds, factor, middle);
         this.applyView();
     }
 
