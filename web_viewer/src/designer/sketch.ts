@@ -53,8 +53,8 @@ export function zoomed(view: View, bounds: View, factor: number, [x, y]: Point):
 
 /** Returns a view that is inside of the bounds. */
 function limited(view: View, bounds: View): View {
-    const within = (value: number, low: number, room: number): number =>
-        Math.min(Math.max(value, low), low + Math.max(room, 0));
+    const within = (value: number, low: number, free: number): number =>
+        Math.min(Math.max(value, low), low + Math.max(free, 0));
     return {
         ...view,
         x: within(view.x, bounds.x, bounds.width - view.width),
