@@ -236,9 +236,6 @@ Context context_of_child(const Context& context, const OffspringSpec& spec, cons
 
 std::string id_of(const Atlas& bred) { return bred.entries().front().species.id.string(); }
 
-/// Returns the cost of breeding without the correspondences.
-Cost cost_of_breeding() { return {.base = 2500}; }
-
 }  // namespace
 
 OffspringRequest read_offspring(std::string_view a, std::string_view b, Query query,
@@ -345,17 +342,19 @@ std::string OffspringOfTwo::file_name(const OffspringSpec& spec, Product product
 
 Cost OffspringOfTwo::cost(const Context& context, const OffspringSpec& spec, Product product,
                           const Caches& caches, Resolved& resolved) {
-    if (product == Product::json) return cost_of_breeding() + search(spec, *context.atlas);
+    if (product == Product::json) return search(spec, *context.atlas);
     const Context of_child = context_of_child(context, spec, caches, resolved);
     return Mushrooms::cost(of_child, mushroom_of(spec, id_of(*resolved.atlas)), product, caches,
                            resolved.individual);
 }
 
 Cost OffspringOfTwo::search(const OffspringSpec& spec, const Atlas& atlas) {
-    if (family_of(*species_of(spec.a, atlas)) == Family::branched) return cost_of_breeding();
-    // Of the parents, of the proof and of the individual.
-    const bool is_crossed = spec.a.own || spec.b.own || spec.a.id != spec.b.id;
-    return cost_of_breeding() + Cost{.outlines = 4, .pairs = is_crossed ? 1U : 0U};
+    if (family_of(*species_of(spec.a, atlas)) == Family::branched) return {.base = 2000};
+    // The correspondences of the parents, of the proof and of the individual. A crossed outline has
+    // the control points of both, so its proof takes longer.
+    if (spec.a.own || spec.b.own || spec.a.id != spec.b.id)
+        return {.base = 4500, .outlines = 4, .pairs = 1};
+    return {.base = 1500, .outlines = 3};
 }
 
 Cost OffspringOfTwo::guess(const OffspringSpec& spec, Product product, const Atlas& atlas) {

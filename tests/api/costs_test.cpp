@@ -186,6 +186,18 @@ void add_morphs(Cases& cases, const std::vector<std::string>& swept) {
         }
 }
 
+void add_offspring(Cases& cases, const std::vector<std::string>& swept) {
+    const auto add = [&](const std::string& a, const std::string& b) {
+        const std::string parents = "/v1/offspring/" + a + '/' + b;
+        add_get(cases, parents + ".json?seed=2");
+        add_get(cases, parents + ".glb?lod=2");
+        add_get(cases, parents + ".glb?lod=3&textures=none");
+    };
+    for (std::size_t i = 0; i < 12; i += 3) add(swept[i], swept[i + 7]);
+    add(swept[0], swept[0]);
+    add("ramaria_formosa", "artomyces_pyxidatus");
+}
+
 void add_bodies(Cases& cases, const std::vector<std::string>& swept) {
     const std::string none = "\"lod\":3,\"textures\":\"none\"",
                       few = "\"lod\":3,\"texture_size\":128";
@@ -348,6 +360,7 @@ Cases all_cases() {
     Cases cases;
     add_mushrooms(cases, swept);
     add_morphs(cases, swept);
+    add_offspring(cases, swept);
     add_bodies(cases, swept);
     add_pictures(cases, swept);
     add_colonies(cases, swept);

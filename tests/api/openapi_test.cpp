@@ -30,6 +30,8 @@ void leaf_names(const std::string& prefix, std::set<std::string>& out) {
         using Member = std::remove_cvref_t<decltype(std::declval<T&>().*member)>;
         if constexpr (Described<Member>)
             leaf_names<Member>(info.name[0] ? prefix + info.name + '.' : prefix, out);
+        else if constexpr (has_query_members<Member>)
+            leaf_names<typename Member::value_type>(prefix + info.name + '.', out);
         else
             out.insert(prefix + info.name);
     });
