@@ -168,7 +168,6 @@ export class LibraryPanel {
             this.token.value = "";
             this.entrance.hidden = true;
             this.desk.hidden = false;
-            this.showOwner();
             this.showState();
             await this.showList();
             announce(`Signed in as ${this.quota.owner}.`);
@@ -306,7 +305,11 @@ export class LibraryPanel {
     }
 
     private async showList(): Promise<void> {
-        const all = (await this.library?.mine()) ?? [];
+        const { library } = this;
+        if (!library) return;
+        const [all, quota] = await Promise.all([library.mine(), library.quota()]);
+        this.quota = quota;
+        this.showOwner();
         this.list.replaceChildren(
             ...all.map(({ id, name, title, newest }) => {
                 const state = newest > 0 ? `published: version ${newest}` : "draft";
