@@ -17,6 +17,9 @@ constexpr std::size_t stations = 64;
 /// Stations that are wider than this many times the width of the narrow third are in the cap.
 constexpr double most_width = 1.95, narrow_share = 0.35;
 
+/// Middles are so far above the foot, of the width of the stem.
+constexpr double below_middles = 0.35;
+
 /// Weight of the drawn line beside a middle, which keeps the curve from running away where few count.
 constexpr double pull = 0.12;
 
@@ -131,12 +134,15 @@ std::vector<Middle> stem_middles(const Contour& contour, const Chord& chord,
     if (found.empty()) return found;
     std::vector<double> sorted = widths;
     std::sort(sorted.begin(), sorted.end());
-    const double widest =
-        most_width *
+    const double narrow =
         sorted[static_cast<std::size_t>(narrow_share * static_cast<double>(sorted.size() - 1))];
+    // Rays near the end of a stem may leave it through its foot.
+    const double widest = most_width * narrow,
+                 lowest = std::min(below_middles * narrow / std::max(chord.length, 1e-9), 0.1);
     std::vector<Middle> usable;
     for (std::size_t i = 0; i < found.size(); ++i)
-        if (widths[i] <= widest && found[i].s <= stem_end) usable.push_back(found[i]);
+        if (widths[i] <= widest && found[i].s <= stem_end && found[i].s >= lowest)
+            usable.push_back(found[i]);
     std::sort(usable.begin(), usable.end(),
               [](const Middle& a, const Middle& b) { return a.s < b.s; });
     return usable;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/individual/axis_curve.h"
 #include "core/math/elementary.h"
 #include "core/math/spline.h"
 #include "core/problems.h"
@@ -122,8 +123,8 @@ Part with_root(const Part& stem, double height) {
 /// radius  of the stem at its top: the axis bends towards the cap no more sharply than it allows
 std::vector<AxisPoint> axis_points(const TracedAxis& axis, const Marks& marks, double root,
                                    double radius) {
-    constexpr int count = 12;
-    constexpr double least_reach = 0.1, most_reach = 0.6, spare = 1.5;
+    constexpr int lower = 9, upper = 6;  // steps below the last part and in it
+    constexpr double least_reach = 0.2, most_reach = 0.6, spare = 1.5;
     const double length = marks.stem_top + root;
     const glm::dvec2 from = axis.at(-root);
     // The last part moves aside by turn (u^3 - u^2): its end stays, and turns.
@@ -131,8 +132,9 @@ std::vector<AxisPoint> axis_points(const TracedAxis& axis, const Marks& marks, d
     const double wanted = std::max(least_reach * length, 4.0 * spare * radius * std::abs(tangent));
     const double reach = std::min(wanted, most_reach * length), turn = tangent * reach / wanted;
     std::vector<AxisPoint> points;
-    for (int k = 0; k <= count; ++k) {
-        const double arc = -root + length * k / count;
+    for (int k = 0; k <= lower + upper; ++k) {
+        const double arc = k < lower ? -root + (length - reach) * k / lower
+                                     : marks.stem_top - reach * (lower + upper - k) / upper;
         const double u = std::max(1.0 - (marks.stem_top - arc) / reach, 0.0);
         const glm::dvec2 at = axis.beside(turn * reach * u * u * (u - 1.0), arc);
         points.push_back({(at.x - from.x) / length, (from.y - at.y) / length, 0.0});
@@ -140,12 +142,13 @@ std::vector<AxisPoint> axis_points(const TracedAxis& axis, const Marks& marks, d
     return points;
 }
 
-/// Returns the greatest curvature of an axis of unit length.
+/// Returns the greatest curvature of an axis of unit length: of its spline, and of what grows from it, which turns
+/// where the spline goes back the way it came.
 double curvature_of(const std::vector<AxisPoint>& axis) {
     std::vector<glm::dvec3> points;
     points.reserve(axis.size());
     for (const AxisPoint& at : axis) points.emplace_back(at.x, at.y, at.z);
-    double greatest = 0.0;
+    double greatest = AxisCurve(axis).greatest_turn();
     for (const SplineSegment<glm::dvec3>& segment : open_spline(points))
         for (int k = 0; k <= 4; ++k) {
             const SplineSample<glm::dvec3> at = segment.at(0.25 * k);

@@ -1,9 +1,12 @@
 #include "core/trace/outline_check.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <utility>
+#include <variant>
 
+#include "core/grow/mushroom.h"
 #include "tests/support/atlas.h"
 
 namespace sporeprint::trace_outline_check_test {
@@ -50,8 +53,31 @@ TEST(OutlineProblem, NamesAnAxisOnWhichAStemFolds) {
     const auto problem = trace::outline_problem(spec);
     ASSERT_TRUE(problem);
     EXPECT_EQ(problem->curve, "axis");
+    // One that comes back the way it went has no curvature but at its end.
+    spec.axis = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}};
+    ASSERT_TRUE(trace::outline_problem(spec));
+    EXPECT_EQ(trace::outline_problem(spec)->curve, "axis");
     spec.axis = {{0.0, 0.0, 0.0}, {0.02, 0.5, 0.0}, {0.05, 1.0, 0.0}};
     EXPECT_FALSE(trace::outline_problem(spec));
+}
+
+RC_GTEST_PROP(OutlineProblem, IsThatOfTheGeneratorWhereTheAxisFolds, ()) {
+    trace::OutlineSpec spec = outline();
+    spec.axis = {{0.0, 0.0, 0.0}};
+    const int points = *rc::gen::inRange(1, 6);
+    const auto coordinate = [] { return 0.1 * *rc::gen::inRange(-20, 21); };
+    for (int i = 0; i < points; ++i) spec.axis.push_back({coordinate(), coordinate(), 0.0});
+    const bool is_simple = !trace::outline_problem(spec);
+    MushroomSpec mushroom;
+    mushroom.model = atlas().find("boletus_edulis")->species.stages[2].model;
+    auto& shape = std::get<Swept>(mushroom.model->shape);
+    shape.axis = spec.axis;
+    mushroom.model->deformation = {};
+    mushroom.params.variation = 0.0;
+    mushroom.params.lod = 3;
+    mushroom.params.textures = Textures::none;
+    // What is called simple grows. The generator allows a little more.
+    if (is_simple) static_cast<void>(mushroom_mesh(mushroom, resolve(mushroom, atlas())));
 }
 
 }  // namespace

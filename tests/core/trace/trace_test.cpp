@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "core/grow/mushroom.h"
+#include "core/individual/axis_curve.h"
+#include "core/math/elementary.h"
 #include "core/mesh/measure.h"
 #include "core/silhouette/outline.h"
 #include "tests/support/atlas.h"
@@ -24,16 +26,33 @@ namespace sporeprint::trace_trace_test {
 namespace {
 
 TEST(Traced, HasTheLeanAndTheBendOfThePhotograph) {
-    for (const double bend : {0.0, 15.0, 30.0})
-        for (const double lean : {-12.0, 0.0, 6.0}) {
-            DrawnMushroom drawn;
-            drawn.bend_deg = bend;
-            drawn.lean_deg = lean - 0.5 * bend;
-            const trace::Traced found = trace::traced(drawn.mask(), drawn.gesture(), {0.1});
-            EXPECT_EQ(found.method, trace::TraceMethod::fitted);
-            EXPECT_NEAR(found.lean_deg, lean, 2.0) << bend;
-            EXPECT_NEAR(found.bend_deg, bend, 6.0) << lean;
-        }
+    for (const double bend : {-40.0, -25.0, 0.0, 15.0, 30.0, 40.0})
+        for (const double lean : {-12.0, 0.0, 6.0})
+            for (const double radius : {0.04, 0.06, 0.1}) {
+                DrawnMushroom drawn;
+                drawn.bend_deg = bend;
+                drawn.lean_deg = lean - 0.5 * bend;
+                drawn.stem_radius = radius;
+                drawn.pixels = 650.0;
+                const trace::Traced found =
+                    trace::traced(drawn.mask(), drawn.gesture(), {0.1, trace::Form::capped});
+                EXPECT_EQ(found.method, trace::TraceMethod::fitted);
+                EXPECT_NEAR(found.lean_deg, lean, 2.0) << bend << ' ' << radius;
+                EXPECT_NEAR(found.bend_deg, std::abs(bend), 3.0) << lean << ' ' << radius;
+            }
+}
+
+TEST(Traced, HasACapThatTurnsAgainstItsStem) {
+    for (const double turn : {-9.0, -3.0, 4.5, 12.0}) {
+        DrawnMushroom drawn;
+        drawn.cap_turn_deg = turn;
+        const trace::Traced found =
+            trace::traced(drawn.mask(), drawn.gesture(), {0.1, trace::Form::capped});
+        EXPECT_NEAR(*found.cap_turn_deg, turn, 2.0);
+        // The mushroom that grows from it has a cap in that direction.
+        const glm::dvec3 top = AxisCurve(found.shape.axis).tangents().back();
+        EXPECT_NEAR(arc_tangent(top.x, top.y) * 180.0 / pi, turn, 1.0 + 0.25 * std::abs(turn));
+    }
 }
 
 TEST(Traced, MarksThePhotographInItsOwnPixels) {
