@@ -29,8 +29,6 @@ std::vector<Cover> covers(int from, int to) {
     return found;
 }
 
-constexpr std::array<std::array<int, 2>, 4> beside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-
 /// Gives a value to all pixels of a row or column that are within a reach of one that has it.
 ///
 /// first, step, count  the pixels of the row or column
@@ -59,22 +57,44 @@ void spread(Mask& mask, std::size_t first, std::size_t step, int count, std::uin
     for (int i = 0; i < std::min(reach, count); ++i) pixel(i) = pixel(count - 1 - i) = 0;
 }
 
-/// Marks all pixels that hang together with those of a list and have a value in a mask.
+/// Marks all pixels that hang together with those of a list and have a value in a mask: row by row, each time all
+/// that hang together in a row.
 ///
 /// returns  their number without those of the list
 std::size_t flood(const Mask& mask, bool value, std::vector<std::array<int, 2>> open,
                   Mask& reached) {
     std::size_t count = 0;
+    const auto is_new_at = [&](std::size_t pixel) {
+        return (mask.inside[pixel] != 0) == value && reached.inside[pixel] == 0;
+    };
     while (!open.empty()) {
         const auto [x, y] = open.back();
         open.pop_back();
-        for (const auto& [dx, dy] : beside) {
-            const int u = x + dx, v = y + dy;
-            if (u < 0 || v < 0 || u >= mask.width || v >= mask.height) continue;
-            if (mask.at(u, v) != value || reached.at(u, v)) continue;
-            reached.inside[reached.index(u, v)] = 1;
-            open.push_back({u, v});
-            ++count;
+        const std::size_t row = mask.index(0, y);
+        const auto mark = [&](std::size_t pixel) {
+            const bool is_new = is_new_at(pixel);
+            if (is_new) {
+                reached.inside[pixel] = 1;
+                ++count;
+            }
+            return is_new;
+        };
+        int left = x, right = x;
+        while (left > 0 && mark(row + static_cast<std::size_t>(left - 1))) --left;
+        while (right + 1 < mask.width && mark(row + static_cast<std::size_t>(right + 1))) ++right;
+        for (const int v : {y - 1, y + 1}) {
+            if (v < 0 || v >= mask.height) continue;
+            const std::size_t beside_row = mask.index(0, v);
+            bool was_new = false;
+            for (int u = left; u <= right; ++u) {
+                const std::size_t pixel = beside_row + static_cast<std::size_t>(u);
+                const bool is_new = is_new_at(pixel);
+                if (is_new && !was_new) {
+                    mark(pixel);
+                    open.push_back({u, v});
+                }
+                was_new = is_new;
+            }
         }
     }
     return count;
