@@ -137,8 +137,11 @@ Response problem_response(const Request& request, int status, std::string_view d
     body.set("type", std::string(base) + "/problems/" + type.slug);
     body.set("title", type.title);
     body.set("status", status);
+    // What is wrong with a whole body has no parameter to be counted.
+    const bool is_whole = problems.size() == 1 && problems[0].path.empty();
     body.set("detail", !detail.empty()    ? std::string(detail)
                        : problems.empty() ? std::string(type.meaning)
+                       : is_whole         ? problems[0].message
                                           : count_of(problems, status));
     body.set("instance", request.id);
     if (!problems.empty()) {

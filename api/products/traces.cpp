@@ -142,6 +142,11 @@ Plan plan_trace(RouteCall& call) {
     Context& context = call.context;
     ValidationErrors& errors = call.errors;
     auto read = read_spec<trace::TraceSpec>(call.request.body, errors);
+    for (Problem& problem : read.second)
+        if (problem.path == "/views/side/gesture" && problem.message.starts_with("null"))
+            problem.message =
+                "expected an object with the line axis, got null; leave it out for a picture that "
+                "is cut out already";
     errors.add(400, read.second);
     const auto spec = std::make_shared<const trace::TraceSpec>(std::move(read.first));
     if (errors.empty() && spec->template_id.view() != "auto" &&
@@ -241,6 +246,14 @@ Value described(Value schema, const char* description) {
     return schema;
 }
 
+/// Returns the schema of the names of an enum from one of them on.
+template <class Enum>
+Value one_of(int first) {
+    Value names = Value::array();
+    for (int i = first; const char* one = name(static_cast<Enum>(i)); ++i) names.push(one);
+    return object({{"type", "string"}, {"enum", std::move(names)}});
+}
+
 void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string"), number = typed("number"), whole = typed("integer");
     const Value pixel =
@@ -296,7 +309,7 @@ void add_schemas(Value& schemas, const Atlas&) {
                   number,
                   "How far other ages have the proportions of the photographed one, 0 to 1.")},
              {"warnings", described(list_of(warning),
-                                    "asymmetry, method, likeness or images, each with a "
+                                    "asymmetry, method, likeness, reversed or images, each with a "
                                     "sentence.")},
              {"stage", described(whole,
                                  "The stage of the species that was photographed, from "

@@ -285,6 +285,9 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::Trac
     return with_paths_of_spec([&] {
         trace::Gesture gesture = drawn_gesture(spec).scaled(on.factor);
         if (gesture.axis.empty()) gesture.axis = trace::upright_line(on.mask);
+        const bool was_reversed =
+            gesture.axis.size() > 1 && !spec.outline && trace::is_reversed(gesture.axis, on.mask);
+        if (was_reversed) std::reverse(gesture.axis.begin(), gesture.axis.end());
         SpeciesFromPhoto found;
         found.nearest =
             nearest.find(trace::likeness_of(on.picture, on.mask), atlas.entries().size());
@@ -325,6 +328,10 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::Trac
         if (spec.images) images = trace::photo_images(on.picture, on.mask, traced, params.height_m);
         found.traced = trace::on_copy(std::move(traced), 1.0 / on.factor);
         found.warnings = warnings_of(found);
+        if (was_reversed)
+            found.warnings.push_back({"reversed",
+                                      "The line leads from the top of the mushroom to its foot; "
+                                      "it was taken the other way round."});
         if (images) give_images(found, *images);
         return found;
     });

@@ -17,7 +17,7 @@ namespace sporeprint {
 
 /// Something about a trace that a person should know.
 struct TraceWarning {
-    const char* code;    ///< for programs: asymmetry, method, likeness, images
+    const char* code;    ///< for programs: asymmetry, method, likeness, reversed, images
     std::string detail;  ///< a sentence
 };
 

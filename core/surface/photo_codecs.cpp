@@ -96,6 +96,8 @@ Picture decoded_jpeg(File file, int longest_side, const std::string& path) {
     if (tjDecompressHeader3(handle.get(), file.data(), size, &width, &height, &subsampling,
                             &colours) != 0)
         refuse(path, "not a readable JPEG file");
+    if (colours == TJCS_CMYK || colours == TJCS_YCCK)
+        refuse(path, "the JPEG file has the colours of print (CMYK); save it with RGB colours");
     const bool progressive = is_progressive(file);
     check_size(width, height, progressive ? most_whole_pixels : most_photo_pixels,
                progressive ? "a progressive JPEG file" : "a JPEG file", path);
@@ -104,13 +106,40 @@ Picture decoded_jpeg(File file, int longest_side, const std::string& path) {
     int scale = 1;
     while (scale < 8 && std::max(width, height) > longest_side * scale) scale *= 2;
     Picture picture = empty_picture((width + scale - 1) / scale, (height + scale - 1) / scale);
-    // Cameras write files that end early or have stray bytes: what can be decoded is.
-    const int result =
-        tjDecompress2(handle.get(), file.data(), size, picture.rgb.data(), picture.width, 0,
-                      picture.height, TJPF_RGB, TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS);
+    const auto decode = [&](File whole) {
+        return tjDecompress2(handle.get(), whole.data(), static_cast<unsigned long>(whole.size()),
+                             picture.rgb.data(), picture.width, 0, picture.height, TJPF_RGB,
+                             TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS);
+    };
+    const auto says = [&](const char* words) {
+        return std::string_view(tjGetErrorStr2(handle.get())).find(words) != std::string_view::npos;
+    };
+    int result = decode(file);
+    if (result != 0 && says("Premature end of JPEG file")) {
+        // Perhaps no more than the mark of the end is missing.
+        Bytes ended(file.begin(), file.end());
+        ended.insert(ended.end(), {0xFF, 0xD9});
+        result = decode(ended);
+    }
+    if (result != 0 && says("premature end of data")) refuse(path, "the JPEG file ends early");
+    // Cameras write files with stray bytes: what can be decoded is.
     if (result != 0 && tjGetErrorCode(handle.get()) != TJERR_WARNING)
         refuse(path, "not a readable JPEG file");
     return picture;
+}
+
+/// Calls a function with the type of each chunk of a PNG file. Returns false if the file ends before its last one.
+template <class Visit>
+bool each_chunk(File file, const Visit& visit) {
+    constexpr std::size_t first = 8, around = 12;  // length, type and checksum
+    for (std::size_t at = first; at + around <= file.size();) {
+        const std::size_t length = number(file, at, 4);
+        if (length > file.size() - at - around) return false;
+        visit(file.subspan(at + 4, 4));
+        if (has(file, at + 4, "IEND")) return true;
+        at += around + length;
+    }
+    return false;
 }
 
 /// Parts pixels of four channels; the colour of what is transparent is that of white paper.
@@ -132,6 +161,11 @@ LayeredPicture decoded_png(File file, const std::string& path) {
     check_size(number(file, 16, 4), number(file, 20, 4),
                interlaced ? most_interlaced_pixels : most_whole_pixels,
                interlaced ? "an interlaced PNG file" : "a PNG file", path);
+    bool is_animated = false;
+    const bool is_whole =
+        each_chunk(file, [&](File type) { is_animated = is_animated || has(type, 0, "acTL"); });
+    if (is_animated) refuse(path, "an animated PNG file is not a photograph");
+    if (!is_whole) refuse(path, "the PNG file ends early");
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;
@@ -150,6 +184,8 @@ LayeredPicture decoded_png(File file, const std::string& path) {
 }
 
 LayeredPicture decoded_webp(File file, const std::string& path) {
+    constexpr std::size_t before = 8;  // the size counts from there
+    if (number(file, 4, 4, true) > file.size() - before) refuse(path, "the WebP file ends early");
     WebPDecoderConfig config;
     if (WebPInitDecoderConfig(&config) == 0) throw GenerationError("no WebP decoder");
     if (WebPGetFeatures(file.data(), file.size(), &config.input) != VP8_STATUS_OK)

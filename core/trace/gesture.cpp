@@ -48,6 +48,26 @@ Stroke upright_line(const Mask& mask) {
             {middle_of(top, top + height / 4), top + 0.5}};
 }
 
+bool is_reversed(const Stroke& axis, const Mask& mask) {
+    constexpr double clearly = 1.25;
+    const glm::dvec2 along = axis.back() - axis.front();
+    if (along.y <= std::abs(along.x)) return false;
+    // The halves of the mushroom along the line, not those of the line, which may be short.
+    double least = 1e300, most = -1e300;
+    const auto each = [&](const auto& visit) {
+        for (int y = 0; y < mask.height; ++y)
+            for (int x = 0; x < mask.width; ++x)
+                if (mask.at(x, y)) visit((x + 0.5) * along.x + (y + 0.5) * along.y);
+    };
+    each([&](double at) {
+        least = std::min(least, at);
+        most = std::max(most, at);
+    });
+    double first = 0.0, last = 0.0;
+    each([&](double at) { (at < 0.5 * (least + most) ? first : last) += 1.0; });
+    return last <= clearly * first;
+}
+
 Mask drawn(const std::vector<Stroke>& strokes, int columns, int rows, double width) {
     Mask mask(columns, rows);
     const double reach = 0.5 * width;

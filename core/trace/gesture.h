@@ -32,6 +32,13 @@ struct Gesture {
 /// row, and that of its upper quarter on the highest one; none of an empty mask.
 [[nodiscard]] Stroke upright_line(const Mask& mask);
 
+/// Returns true if a line goes down on the photograph, and what it is on is not clearly wider where it ends: it was
+/// drawn from the top to the foot. One that goes down towards the wider half is that of a mushroom on its
+/// head.
+///
+/// axis  at least two points, in pixels of the mask
+[[nodiscard]] bool is_reversed(const Stroke& axis, const Mask& mask);
+
 /// Returns the pixels within half a width of strokes; what lies beyond the border is left out.
 ///
 /// width  of the strokes, pixels

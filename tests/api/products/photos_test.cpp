@@ -102,7 +102,11 @@ TEST_F(PhotoRoutes, SniffTheFormatWhateverItsTypeSays) {
 TEST_F(PhotoRoutes, RefuseWhatIsNoPhotograph) {
     const Response gif = upload({'G', 'I', 'F', '8', '9', 'a'});
     expect_problem(gif, 400);
-    EXPECT_NE(text_of(gif).find("neither a JPEG"), std::string::npos);
+    EXPECT_EQ(json_of(gif).find("detail")->as_string(), "neither a JPEG, a PNG nor a WebP file");
+    const Bytes whole = picture(false);
+    const Response early = upload({whole.begin(), whole.end() - 20});
+    expect_problem(early, 400);
+    EXPECT_EQ(json_of(early).find("detail")->as_string(), "the PNG file ends early");
     expect_problem(upload({}), 400);
     expect_problem(ask(post(std::string(most_photo_bytes + 1, 'x'), "/v1/photos", "image/png")),
                    413);

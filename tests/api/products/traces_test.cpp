@@ -201,6 +201,10 @@ TEST_F(TraceRoutes, NameWhatIsWrong) {
                                    R"(","gesture":{"axis":[[10,10],[900,20]]}}}})");
     expect_problem(outside, 422);
     EXPECT_TRUE(names(outside, "/views/side/gesture/axis/1", "400 x 400"));
+    const Response null =
+        trace(R"({"views":{"side":{"photo":")" + photo + R"(","gesture":null}}})");
+    expect_problem(null, 400);
+    EXPECT_TRUE(names(null, "/views/side/gesture", "expected an object with the line axis"));
     expect_problem(trace("[]"), 400);
     expect_problem(trace("{}"), 400);
 }

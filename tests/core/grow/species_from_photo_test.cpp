@@ -312,6 +312,20 @@ TEST(SpeciesFromPhoto, OfAnOutlineThatCannotBeGrownIsAStretchedTemplate) {
                       "/template"));
 }
 
+TEST(SpeciesFromPhoto, TakesALineFromTheTopTheOtherWayRoundAndWarns) {
+    trace::TraceSpec spec = spec_of(bolete().gesture);
+    const SpeciesFromPhoto right = found_in(bolete(), spec, std::nullopt);
+    auto& axis = spec.views.side.gesture->axis;
+    std::reverse(axis.begin(), axis.end());
+    const SpeciesFromPhoto turned = found_in(bolete(), spec, std::nullopt);
+    EXPECT_EQ(turned.traced.shape.silhouette, right.traced.shape.silhouette);
+    const auto is_reversed = [](const TraceWarning& one) {
+        return std::string_view(one.code) == "reversed";
+    };
+    EXPECT_TRUE(std::any_of(turned.warnings.begin(), turned.warnings.end(), is_reversed));
+    EXPECT_TRUE(std::none_of(right.warnings.begin(), right.warnings.end(), is_reversed));
+}
+
 TEST(SpeciesFromPhoto, WarnsOfSidesThatDiffer) {
     // A cap that is wide on one side alone.
     trace::Mask lopsided(400, 500);

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <turbojpeg.h>
 #include <webp/encode.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -155,6 +157,60 @@ TEST(PhotoCodecs, RefusesWhatIsNoPhotograph) {
     Bytes scans = jpeg_of(corners(16, 16));
     for (int i = 0; i < 100; ++i) scans.insert(scans.end(), {0xFF, 0xDA});
     EXPECT_TRUE(names(refusal_of(scans), "/photo", "too many scans"));
+}
+
+TEST(PhotoCodecs, NamesFilesThatEndEarly) {
+    Bytes rgba;
+    rgba.reserve(4UL * 64 * 64);
+    for (int i = 0; i < 4 * 64 * 64; ++i) rgba.push_back(static_cast<std::uint8_t>(i * 37 % 251));
+    Bytes rgb;
+    rgb.reserve(3UL * 64 * 64);
+    for (int i = 0; i < 3 * 64 * 64; ++i) rgb.push_back(static_cast<std::uint8_t>(i * 37 % 251));
+    const auto first = [](const Bytes& file, std::size_t count) {
+        return Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(count));
+    };
+    const Bytes photo = jpeg(rgb, 64, 64, 90, Chroma::full), drawing = png(rgba, 64, 64);
+    for (const double share : {0.5, 0.8, 0.95}) {
+        const auto part = [share](const Bytes& file) {
+            return static_cast<std::size_t>(share * static_cast<double>(file.size()));
+        };
+        EXPECT_TRUE(
+            names(refusal_of(first(photo, part(photo))), "/photo", "the JPEG file ends early"))
+            << share;
+        EXPECT_TRUE(
+            names(refusal_of(first(drawing, part(drawing))), "/photo", "the PNG file ends early"))
+            << share;
+    }
+    // Some cameras leave the mark of the end out.
+    EXPECT_TRUE(refusal_of(first(photo, photo.size() - 2)).empty());
+    EXPECT_EQ(decoded_layers(first(photo, photo.size() - 2), 64, "").picture.rgb,
+              decoded_layers(photo, 64, "").picture.rgb);
+    const Bytes webp = webp_of(rgba, 64, 64);
+    EXPECT_TRUE(refusal_of(webp).empty());
+    EXPECT_TRUE(
+        names(refusal_of(first(webp, webp.size() / 2)), "/photo", "the WebP file ends early"));
+}
+
+TEST(PhotoCodecs, RefusesTheColoursOfPrint) {
+    const std::unique_ptr<void, int (*)(void*)> handle(tjInitCompress(), tjDestroy);
+    const Bytes cmyk(4UL * 16 * 16, 90);
+    unsigned char* out = nullptr;
+    unsigned long size = 0;
+    ASSERT_EQ(tjCompress2(handle.get(), cmyk.data(), 16, 0, 16, TJPF_CMYK, &out, &size, TJSAMP_444,
+                          90, 0),
+              0);
+    const Bytes file(out, out + size);
+    tjFree(out);
+    EXPECT_TRUE(names(refusal_of(file), "/photo", "the colours of print (CMYK)"));
+}
+
+TEST(PhotoCodecs, RefusesAnAnimatedPngFile) {
+    Bytes file = png(Bytes(4 * 8 * 8, 255), 8, 8);
+    // After the header of 8 bytes and the first chunk of 25: two frames, played for ever.
+    const Bytes control = {0, 0, 0, 8, 'a', 'c', 'T',  'L',  0,    0,
+                           0, 2, 0, 0, 0,   0,   0xF3, 0x8D, 0x93, 0x70};
+    file.insert(file.begin() + 33, control.begin(), control.end());
+    EXPECT_TRUE(names(refusal_of(file), "/photo", "an animated PNG file is not a photograph"));
 }
 
 TEST(PhotoCodecs, RefusesBombsByTheirHeader) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "tests/support/drawn_mushroom.h"
+
 namespace sporeprint::trace_gesture_test {
 namespace {
 
@@ -53,6 +57,33 @@ TEST(Gesture, IsScaledWithThePhotograph) {
     EXPECT_EQ(half.keep[0][0], glm::dvec2(3.5, 4.0));
     EXPECT_EQ(half.drop[0][0], glm::dvec2(4.5, 5.0));
     EXPECT_EQ(half.frame->to, glm::dvec2(6.5, 7.0));
+}
+
+TEST(IsReversed, ALineFromTheTopToTheFootOfAnUprightMushroom) {
+    for (const double lean : {-30.0, 0.0, 20.0}) {
+        DrawnMushroom drawn;
+        drawn.pixels = 500.0;
+        drawn.lean_deg = lean;
+        const trace::Stroke up = {drawn.axis(0.03), drawn.axis(0.9)}, down = {up[1], up[0]};
+        EXPECT_FALSE(trace::is_reversed(up, drawn.mask())) << lean;
+        EXPECT_TRUE(trace::is_reversed(down, drawn.mask())) << lean;
+        // The same mushroom on its head: its foot is above.
+        trace::Mask turned = drawn.mask();
+        std::reverse(turned.inside.begin(), turned.inside.end());
+        const auto mirrored = [&](const glm::dvec2& at) {
+            return glm::dvec2(drawn.side - at.x, drawn.side - at.y);
+        };
+        EXPECT_FALSE(trace::is_reversed({mirrored(up[0]), mirrored(up[1])}, turned)) << lean;
+    }
+    // A ball has no wider half: down is from the top.
+    trace::Mask ball(100, 100);
+    for (int y = 0; y < 100; ++y)
+        for (int x = 0; x < 100; ++x)
+            ball.inside[ball.index(x, y)] = (x - 50) * (x - 50) + (y - 50) * (y - 50) < 1600;
+    EXPECT_TRUE(trace::is_reversed({{50, 15}, {50, 80}}, ball));
+    EXPECT_FALSE(trace::is_reversed({{50, 80}, {50, 15}}, ball));
+    // A line that lies is taken as it is.
+    EXPECT_FALSE(trace::is_reversed({{15, 50}, {80, 55}}, ball));
 }
 
 }  // namespace

@@ -212,11 +212,11 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/v1/photos/{photo}.jpg", stored), client.GET("/v1/photos/{photo}.jpg", { ...stored, ...binary }));
     const axis = [[160, 290], [160, 60]];
     const { data: traced } = await client.POST("/v1/traces", { body: { views: { side: { photo, gesture: { axis } } }, height_m: 0.08 } });
-    const outline = traced?.species.stages?.[traced.stage]?.model;
+    if (!traced) throw new Error("there is no trace");
+    const outline = traced.species.stages?.[traced.stage]?.model;
     if (outline?.form !== "swept" || !outline.silhouette) throw new Error("the traced species has no outline");
-    const { data: marked } = await client.POST("/v1/traces", {
-        body: { views: { side: { photo } }, outline: traced?.outline, marks: traced?.marks, form: traced?.form, template: traced?.template, height_m: 0.08 },
-    });
+    const { form, template, marks, outline: lines } = traced;
+    const { data: marked } = await client.POST("/v1/traces", { body: { views: { side: { photo } }, outline: lines, marks, form, template, height_m: 0.08 } });
     const same = marked?.species.stages?.[marked.stage]?.model;
     if (same?.form !== "swept" || JSON.stringify(same.silhouette) !== JSON.stringify(outline.silhouette)) throw new Error("a trace of its own outline and marks has another shape");
     const { data: checked } = await client.POST("/v1/outlines/check", { body: { silhouette: outline.silhouette } });
