@@ -16,6 +16,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
+#include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
 namespace sporeprint::grow_offspring_test {
@@ -40,10 +41,6 @@ GetOrCompute<MorphSet> cached_in(std::map<std::string, std::shared_ptr<const Mor
         if (!set) set = make();
         return set;
     };
-}
-
-bool is_branched(const Species& species) {
-    return std::holds_alternative<Branched>(species.stages.front().model.shape);
 }
 
 TEST(Offspring, OfOneParentAloneIsThatParent) {
