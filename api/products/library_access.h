@@ -57,9 +57,9 @@ using LibraryHandler = Response (*)(LibraryCall&);
 [[nodiscard]] Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler);
 
 /// A handler of Route::plan.
-template <Scope scope, LibraryHandler handler>
+template <Scope Needed, LibraryHandler Handler>
 Plan library_route(RouteCall& call) {
-    return plan_library(call, scope, handler);
+    return plan_library(call, Needed, Handler);
 }
 
 /// Returns a response in JSON that nobody but the client may store.
