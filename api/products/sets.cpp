@@ -387,8 +387,10 @@ Value order_schema() {
     for (const char* list : {"ages", "levels"})
         properties.find(list)->set("minItems", 1).set("uniqueItems", true);
     const Value mushroom = sporeprint::schema<MushroomParams>();
+    // Of two parameters with one name, such as `seeds`, the set has its own.
     for (const auto& [name, property] : mushroom.find("properties")->members())
-        if (std::none_of(std::begin(chosen), std::end(chosen),
+        if (!properties.find(name) &&
+            std::none_of(std::begin(chosen), std::end(chosen),
                          [&, &name = name](const auto& one) { return name == one.first; }))
             properties.set(name, property);
     return schema;

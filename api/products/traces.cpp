@@ -296,9 +296,9 @@ void add_schemas(Value& schemas, const Atlas&) {
              {"template", described(text,
                                     "The species that lends what the photograph does not "
                                     "show.")},
-             {"form", described(text, "capped, funnel, morel, club, puffball or cup.")},
+             {"form", described(one_of<trace::Form>(1), "How the mushroom is built.")},
              {"method",
-              described(text,
+              described(one_of<trace::TraceMethod>(0),
                         "fitted; straightened: the stem would fold as it is bent on the "
                         "photograph; simplified: the outline would cross itself; template: neither "
                         "can be grown, so it is the template's, stretched to the same "

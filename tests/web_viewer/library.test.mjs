@@ -26,6 +26,7 @@ async function open(fragment = `#token=${token}`) {
     const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1000, height: 700 } });
     const page = await context.newPage();
     page.setDefaultTimeout(60_000);
+    page.on("dialog", (dialog) => void dialog.accept());
     const log = logEvents(page);
     await page.goto(`${base}/editor${fragment}`);
     await page.locator("#file").setInputFiles(picture);
@@ -100,6 +101,8 @@ test("of two writers of a draft the later one chooses, and nothing is lost", asy
 test("species of the library are listed and opened again; a wrong token is named", async () => {
     const { page } = await open("");
     await page.locator("#tab-library").click();
+    await page.locator("#token").press("Enter");
+    await page.locator("#library-error", { hasText: "begins with spk_" }).waitFor();
     await page.locator("#token").fill(`spk_abcdefgh_${"A".repeat(43)}`);
     await page.locator("#token").press("Enter");
     await page.locator("#library-error", { hasText: "no such token" }).waitFor();
@@ -107,6 +110,14 @@ test("species of the library are listed and opened again; a wrong token is named
     await page.locator("#token").press("Enter");
     await page.locator("#library-desk").waitFor();
     await save(page, "cep_again");
+    await page.locator("#library-publish").click();
+    await page.locator("#library-address").waitFor();
+    // A reload goes on with the same species of the library.
+    await page.reload();
+    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
+    await page.locator("#tab-library").click();
+    assert.equal(await page.locator("#library-name").inputValue(), "cep_again");
+    assert.match(await page.locator("#library-address").getAttribute("href"), /~me\.cep_again@1\.glb$/);
     await page.locator("[data-library='~me.cep_again']").click();
     await page.locator("#library-state", { hasText: "~me.cep_again · draft" }).waitFor();
     assert.equal(await page.locator("#library-name").inputValue(), "cep_again");

@@ -993,7 +993,8 @@ test("a name of the library resembles a title, and the library allows it", () =>
 
 test("a token is taken from the fragment of an address, and from nothing else", () => {
     const token = `spk_abcdefgh_${"A".repeat(43)}`;
-    assert.equal(page.tokenIn(`#token=${token}`), token);
+    for (const text of [`#token=${token}`, token, ` ${token} `, `http://127.0.0.1:8080/editor#token=${token}`])
+        assert.equal(page.tokenIn(text), token);
     for (const other of ["", "#", "#token=", `?token=${token}`, `#token=${token}x`, "#token=<b>"])
         assert.equal(page.tokenIn(other), undefined, other);
 });

@@ -161,7 +161,12 @@ export class Designer {
     private formsRequested = false;
     /** Lines are drawn, or points of the outline or of the axis are moved. */
     private mode: "draw" | "outline" | "bend" = "draw";
-    private readonly library = new LibraryPanel((file) => this.open(file));
+    private readonly library = new LibraryPanel(
+        (file) => this.open(file),
+        () =>
+            !this.photograph?.drawable ||
+            confirm("The species takes the place of the photograph and of the lines on it. Go on?"),
+    );
     private photograph: Source | undefined;
     private address: string | undefined;
     private opening: AbortController | undefined;
@@ -275,8 +280,11 @@ export class Designer {
         const { file, drawing, past, future } = draft;
         const whole = (each: Drawing): Drawing => ({ ...startOfDrawing, ...each });
         const steps = { past: (past ?? []).map(whole), future: (future ?? []).map(whole) };
+        const linked = LibraryPanel.linked();
         await this.open(file, whole(drawing), steps);
-        if (this.photograph) announce("The draft of the last visit is open again.");
+        if (!this.photograph) return;
+        if (linked) this.library.resume(linked);
+        announce("The draft of the last visit is open again.");
     }
 
     /** Opens a photograph in place of the last one. */

@@ -47,9 +47,9 @@ export function nameLike(text: string): string {
     return name || "my_mushroom";
 }
 
-/** Returns the token in a fragment such as "#token=spk_...", if it has one. */
-export function tokenIn(fragment: string): string | undefined {
-    return /^#token=(spk_[\w-]{52})$/.exec(fragment)?.[1];
+/** Returns the token in a text, such as the fragment "#token=spk_..." or a whole address, if it has one. */
+export function tokenIn(text: string): string | undefined {
+    return /(?:^|#token=)(spk_[a-z0-9]{8}_[\w-]{43})$/.exec(text.trim())?.[1];
 }
 
 /** Returns true if the service has a library. */

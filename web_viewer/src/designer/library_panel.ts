@@ -1,6 +1,6 @@
 // The panel of the library: a token, the user's species, saving and publishing.
 import { byId, make } from "../dom";
-import { asRequestFailed, type RequestFailed } from "../http";
+import { asRequestFailed, RequestFailed } from "../http";
 import { announce } from "../status_line";
 import {
     hasLibrary,
@@ -14,6 +14,7 @@ import {
 import type { Species } from "./service";
 
 const storageKey = "sporeprint-token";
+const linkKey = "sporeprint-library-draft";
 
 /** Time after the last change until a species of the library is saved, milliseconds. */
 const saveDelayMs = 2000;
@@ -75,8 +76,12 @@ export class LibraryPanel {
     private readonly entrance: HTMLFormElement;
     private readonly desk: HTMLElement;
 
-    /** `opened` is called with a species of the library. */
-    constructor(private readonly opened: (file: File) => Promise<void>) {
+    /** `opened` is called with a species of the library; `mayReplace` returns whether it may replace what is worked
+     *  on. */
+    constructor(
+        private readonly opened: (file: File) => Promise<void>,
+        private readonly mayReplace: () => boolean,
+    ) {
         this.entrance = make(
             "form",
             { id: "library-entrance" },
@@ -100,7 +105,7 @@ export class LibraryPanel {
             make(
                 "p",
                 { id: "name-hint", class: "hint" },
-                "a to z, 0 to 9 and _, the first a letter. A published name never means something else.",
+                "1 to 24 characters a to z, 0 to 9 and _, the first a letter. Another name makes a copy.",
             ),
             make("label", { for: "library-note" }, "What is new"),
             this.note,
@@ -119,7 +124,16 @@ export class LibraryPanel {
         leave.addEventListener("click", () => this.leave());
         this.save.addEventListener("click", () => void this.write(() => this.saved()));
         this.publish.addEventListener("click", () => void this.write(() => this.publishNow()));
-        this.name.addEventListener("input", () => this.showState());
+        this.name.addEventListener("input", () => {
+            this.published.hidden = this.name.value !== this.link?.name;
+            this.showState();
+        });
+        this.name.addEventListener("change", () => {
+            const name = nameLike(this.name.value);
+            if (name === this.name.value) return;
+            announce(`The name is ${name}: '${this.name.value}' is not allowed.`);
+            this.name.value = name;
+        });
     }
 
     /** Shows the panel if the service has a library, and signs in with a token of the address or of the last visit. */
@@ -150,9 +164,31 @@ export class LibraryPanel {
         this.saving = setTimeout(() => void this.write(() => this.saved()), saveDelayMs);
     }
 
+    /** The draft in the library that the draft of this browser belongs to; undefined for none. */
+    static linked(): { id: string; name: string; etag: string } | undefined {
+        const stored = localStorage.getItem(linkKey);
+        return stored ? (JSON.parse(stored) as { id: string; name: string; etag: string }) : undefined;
+    }
+
+    /** Goes on with a draft in the library, after the draft of this browser was opened again. */
+    resume(link: { id: string; name: string; etag: string }): void {
+        this.follow({ ...link, text: "" });
+        this.name.value = link.name;
+        this.say(`${link.id} · draft`);
+        void this.showList();
+    }
+
+    private follow(link: Link | undefined): void {
+        this.link = link;
+        if (link) {
+            const { id, name, etag } = link;
+            localStorage.setItem(linkKey, JSON.stringify({ id, name, etag }));
+        } else localStorage.removeItem(linkKey);
+    }
+
     /** Tells that something else is worked on, which is not in the library yet. */
     forget(): void {
-        this.link = undefined;
+        this.follow(undefined);
         this.name.value = "";
         this.conflict.hidden = this.published.hidden = true;
         this.say("");
@@ -160,6 +196,16 @@ export class LibraryPanel {
 
     private async enter(token: string, stay: boolean): Promise<void> {
         this.showError(undefined);
+        const found = tokenIn(token);
+        if (!found)
+            return this.showError(
+                new RequestFailed(
+                    "This is no token",
+                    "a token begins with spk_ and has 56 characters; the whole address that the server has printed will do too",
+                    0,
+                ),
+            );
+        token = found;
         const library = new Library(token);
         try {
             this.quota = await library.quota();
@@ -191,15 +237,19 @@ export class LibraryPanel {
         clearTimeout(this.saving);
         this.writing = this.writing.then(async () => {
             this.showError(undefined);
+            const focused = document.activeElement;
             this.save.disabled = this.publish.disabled = true;
             try {
                 await act();
             } catch (error) {
                 const failed = asRequestFailed(error, "It cannot be saved");
                 if (failed.status === 412) this.showConflict();
-                else this.showError(failed);
+                else if (failed.status !== 409 || !this.showTaken()) this.showError(failed);
             } finally {
                 this.showState();
+                // A disabled button loses the focus.
+                if (document.activeElement === document.body && focused instanceof HTMLElement)
+                    focused.focus();
             }
         });
         return this.writing;
@@ -225,7 +275,7 @@ export class LibraryPanel {
         if (link?.text === text) return;
         this.say("Saving …");
         const stored = await library.save({ ...species, id: name }, quota.owner, link?.etag);
-        this.link = { id: stored.id, name, etag: stored.draft ?? "", text };
+        this.follow({ id: stored.id, name, etag: stored.draft ?? "", text });
         this.say(`${stored.id} · draft, saved ${new Date().toLocaleTimeString()}`);
         if (!link) await this.showList();
     }
@@ -251,7 +301,11 @@ export class LibraryPanel {
         copy.addEventListener("click", () => {
             void navigator.clipboard
                 .writeText(address)
-                .then(() => announce("The address is copied."))
+                .then(() => {
+                    announce("The address is copied.");
+                    copy.textContent = "Copied";
+                    setTimeout(() => (copy.textContent = "Copy address"), 2000);
+                })
                 .catch(() => announce(`The address is ${address}`));
         });
         this.published.replaceChildren(
@@ -263,8 +317,19 @@ export class LibraryPanel {
         this.published.hidden = false;
     }
 
-    /** Offers what can be done if somebody else has saved the draft meanwhile. */
-    private showConflict(): void {
+    /** Offers what can be done if the user has another species of this name; returns false if there is none, since
+     *  it was withdrawn. */
+    private showTaken(): boolean {
+        const name = this.name.value.trim();
+        const id = `~${this.quota?.owner ?? ""}.${name}`;
+        if (!this.list.querySelector(`[data-library="${id}"]`)) return false;
+        this.follow({ id, name, etag: "", text: "" });
+        this.showConflict(`You have a species ${id} already.`);
+        return true;
+    }
+
+    /** Offers what can be done if the draft in the library is another one. */
+    private showConflict(reason?: string): void {
         const choice = (label: string, act: () => Promise<void>): HTMLButtonElement => {
             const button = make("button", { type: "button" }, label);
             button.addEventListener("click", () => {
@@ -275,7 +340,7 @@ export class LibraryPanel {
         };
         const { library, link } = this;
         if (!library || !link) return;
-        this.say(`${link.id} was saved elsewhere since it was opened here.`);
+        this.say(reason ?? `${link.id} was saved elsewhere since it was opened here.`);
         this.conflict.replaceChildren(
             choice("Keep mine", async () => {
                 link.etag = (await library.draft(link.id)).etag;
@@ -284,7 +349,7 @@ export class LibraryPanel {
             }),
             choice("Take theirs", () => this.open(link.id, link.name)),
             choice("Save mine under another name", async () => {
-                this.link = undefined;
+                this.follow(undefined);
                 this.name.value = `${this.name.value.slice(0, 21)}_2`;
                 await this.saved();
             }),
@@ -295,13 +360,14 @@ export class LibraryPanel {
 
     private async open(id: string, name: string): Promise<void> {
         const { library } = this;
-        if (!library) return;
+        if (!library || !this.mayReplace()) return;
         const { text, etag } = await library.draft(id);
         await this.opened(new File([text], `${name}.json`, { type: "application/json" }));
         const species = JSON.parse(text) as Species;
-        this.link = { id, name, etag, text: JSON.stringify({ ...species, id: name }) };
+        this.follow({ id, name, etag, text: JSON.stringify({ ...species, id: name }) });
         this.name.value = name;
         this.say(`${id} · draft`);
+        await this.showList();
     }
 
     private async showList(): Promise<void> {
@@ -310,6 +376,8 @@ export class LibraryPanel {
         const [all, quota] = await Promise.all([library.mine(), library.quota()]);
         this.quota = quota;
         this.showOwner();
+        const own = all.find(({ id }) => id === this.link?.id);
+        if (own && own.newest > 0) this.showPublished(own);
         this.list.replaceChildren(
             ...all.map(({ id, name, title, newest }) => {
                 const state = newest > 0 ? `published: version ${newest}` : "draft";
