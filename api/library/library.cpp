@@ -68,7 +68,10 @@ Library::Found Library::find(std::string_view id) {
     {
         const std::shared_lock lock(mutex_);
         const auto known = published_.find(document);
-        if (known == published_.end()) {
+        const bool is_published =
+            known != published_.end() &&
+            (known->second.state == DocumentState::purged || !known->second.versions.empty());
+        if (!is_published) {
             found.status = 404;
             found.message = "nothing of the name " + in_quotes(document) + " is published";
             return found;

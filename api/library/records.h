@@ -231,6 +231,9 @@ class Records {
                                   const Share& share) = 0;
     [[nodiscard]] virtual std::vector<Share> shares(std::string_view owner,
                                                     std::string_view name) = 0;
+    /// Returns a share of a document by its id.
+    [[nodiscard]] virtual std::optional<Share> share(std::string_view owner, std::string_view name,
+                                                     std::string_view id) = 0;
     /// Returns false if the document has no such share.
     virtual bool revoke_share(std::string_view owner, std::string_view name,
                               std::string_view id) = 0;

@@ -1,6 +1,7 @@
 #include "api/library/species_text.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "api/library/tokens.h"
@@ -102,6 +103,7 @@ Content content_of(const Species& species) {
     Value json = write(species);
     // An image is a text of thousands of characters; no other text is equal to one of them.
     std::vector<std::pair<std::string, const Upload*>> images;
+    images.reserve(uploads.size());
     for (const Upload* const upload : uploads)
         images.emplace_back(base64_text(upload->bytes), upload);
     each_value(json, "", [&](const std::string& pointer, Value& value) {
@@ -126,10 +128,13 @@ Value json_of(const Content& content) {
     std::vector<Problem> problems;
     Value json = parse(content.text, problems);
     if (!problems.empty()) throw GenerationError("a stored species is no JSON");
-    for (const Blob& blob : content.blobs)
-        each_value(json, "", [&](const std::string& pointer, Value& value) {
-            if (pointer == blob.place) value = base64_text(blob.bytes);
-        });
+    if (content.blobs.empty()) return json;
+    std::map<std::string_view, const Blob*> blobs;
+    for (const Blob& blob : content.blobs) blobs.emplace(blob.place, &blob);
+    each_value(json, "", [&](const std::string& pointer, Value& value) {
+        const auto found = blobs.find(pointer);
+        if (found != blobs.end()) value = base64_text(found->second->bytes);
+    });
     return json;
 }
 

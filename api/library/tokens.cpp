@@ -20,10 +20,10 @@ constexpr std::size_t id_length = 8, secret_length = 43;
 /// Characters of ids: 32, none of which looks like another.
 constexpr std::string_view id_characters = "abcdefghijkmnpqrstuvwxyz23456789";
 
-template <std::size_t n>
-std::array<std::uint8_t, n> random_bytes() {
-    std::array<std::uint8_t, n> bytes{};
-    if (RAND_bytes(bytes.data(), static_cast<int>(n)) != 1)
+template <std::size_t Count>
+std::array<std::uint8_t, Count> random_bytes() {
+    std::array<std::uint8_t, Count> bytes{};
+    if (RAND_bytes(bytes.data(), static_cast<int>(Count)) != 1)
         throw std::runtime_error("the system gives no random numbers");
     return bytes;
 }

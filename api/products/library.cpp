@@ -287,15 +287,15 @@ void add_library_schemas(Value& schemas, const Atlas&) {
     written.emplace_back(
         "draft",
         object({{"type", "string"}, {"description", "Entity tag of the draft, for If-Match."}}));
-    const Value image =
-        objects({{"place", text}, {"media", text}, {"sha256", text}, {"base64", text}});
+    const Value image = objects({{"media", text}, {"sha256", text}, {"base64", text}});
+    const Value place = objects({{"place", text}, {"sha256", text}});
     const Value version = objects({{"number", whole},
                                    {"made_s", time_of("When it was made")},
                                    {"note", text},
                                    {"format", whole},
                                    {"sha256", text},
                                    {"text", text},
-                                   {"images", list_of(image)}});
+                                   {"images", list_of(place)}});
     const Value::Object share = {{"id", text},
                                  {"created_s", time_of("When it was made")},
                                  {"expires_s", time_of("When it ends")},
@@ -325,7 +325,8 @@ void add_library_schemas(Value& schemas, const Atlas&) {
                                         {"parent2", text},
                                         {"created_s", time_of("When it was created")},
                                         {"updated_s", time_of("When it last changed")},
-                                        {"versions", list_of(version)}}))
+                                        {"versions", list_of(version)},
+                                        {"images", list_of(image)}}))
         .set("library_shares", objects({{"shares", list_of(of_object(share))}}))
         .set("library_share", of_object(new_share));
 }
@@ -350,7 +351,8 @@ void add_library_bodies(Value& bodies, const Atlas&) {
                                                  {"parent2", ""},
                                                  {"created_s", 1'800'000'000},
                                                  {"updated_s", 1'800'000'000},
-                                                 {"versions", Value::array()}})));
+                                                 {"versions", Value::array()},
+                                                 {"images", Value::array()}})));
 }
 
 void add_token_schemas(Value& schemas, const Atlas&) {

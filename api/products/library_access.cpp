@@ -60,7 +60,11 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
                        std::string(name(scope)) + '"');
         return response;
     }
-    library.records().note_use(token->id, now);
+    try {
+        library.records().note_use(token->id, now);
+    } catch (const Unavailable&) {
+        // Who only reads need not wait for those who write.
+    }
     return Caller{token->owner, token->scope, token->id};
 }
 

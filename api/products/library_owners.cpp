@@ -51,12 +51,10 @@ std::optional<Response> not_own(const LibraryCall& call, const LibraryName& name
 bool is_shared(const LibraryCall& call, const LibraryName& name, std::string_view key) {
     const std::optional<Secret> secret = read_secret(share_prefix, key);
     if (!secret) return false;
-    bool is_good = false;
-    for (const Share& share : call.records.shares(name.owner, name.name))
-        is_good = is_good || (share.id == secret->id && !share.is_revoked &&
-                              share.expires > call.library.now() &&
-                              equal_in_constant_time(share.secret, secret->digest));
-    return is_good;
+    const std::optional<Share> share = call.records.share(name.owner, name.name, secret->id);
+    const bool is_equal =
+        equal_in_constant_time(share ? share->secret : Digest{}, secret->digest) && share;
+    return is_equal && !share->is_revoked && share->expires > call.library.now();
 }
 
 Response list_shares(LibraryCall& call) {

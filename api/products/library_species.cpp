@@ -1,5 +1,6 @@
 // Drafts and published versions of users' species.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "api/http/conditions.h"
@@ -109,10 +110,16 @@ Expected expected_draft(const LibraryCall& call, const LibraryName& name) {
     return expected;
 }
 
+/// Returns the response about a species of the caller that has no draft: it was purged, or there is none.
+Response without_draft(const LibraryCall& call, const LibraryName& name) {
+    const std::optional<StoredDocument> document = call.records.document(name.owner, name.name);
+    return refused_write(call, document ? WriteResult::purged : WriteResult::missing, name);
+}
+
 /// Returns 412 with what the draft is now, and where it differs from what was sent.
 Response stale(const LibraryCall& call, const LibraryName& name, const Species* sent) {
     const std::optional<Version> draft = call.records.version(name.owner, name.name, 0);
-    if (!draft) return unseen(call, name);
+    if (!draft) return without_draft(call, name);
     Value changed = Value::array();
     if (sent)
         for (std::string& pointer :
@@ -147,7 +154,10 @@ std::vector<Problem> obstacles(const LibraryCall& call, const Species& species,
     MushroomSpec spec;
     spec.mix = {{id, 1000}};
     spec.params.lod = 3;
-    spec.params.textures = Textures::none;
+    // Images are decoded where they are painted.
+    const bool has_images = !content_of(species).blobs.empty();
+    if (!has_images) spec.params.textures = Textures::none;
+    spec.params.texture_size = {128};
     for (const double age : ages) {
         spec.params.age = std::clamp(age, 0.0, 1.0);
         try {
@@ -188,7 +198,7 @@ Response refused_write(const LibraryCall& call, WriteResult result, const Librar
             const std::optional<Owner> owner = call.records.owner(name.owner);
             if (!owner) return unseen(call, name);
             const auto megabytes = [](std::int64_t bytes) {
-                return number_text(static_cast<double>(bytes / 100'000) / 10.0);
+                return number_text(std::floor(static_cast<double>(bytes) / 1e5) / 10.0);
             };
             return call.problem(507, std::to_string(owner->documents) + " of " +
                                          std::to_string(owner->max_documents) + " species; " +
@@ -277,7 +287,8 @@ Response get_library_species(LibraryCall& call) {
     const auto key = read_options<ShareKey>(call, errors);
     if (!errors.empty()) return call.problem(errors);
     const std::optional<StoredDocument> document = call.records.document(name.owner, name.name);
-    if (document && document->state == DocumentState::purged)
+    if (document && document->state == DocumentState::purged &&
+        (document->newest > 0 || call.caller.is(name.owner)))
         return withdrawn(
             call.responses(), call.request,
             in_quotes(text_of({name.owner, name.name})) + " was withdrawn by its owner");
@@ -303,6 +314,8 @@ Response get_library_species(LibraryCall& call) {
         return call.responses().precondition_failed(call.request, "If-Match", etags);
     if (const std::string* const known = conditions.unchanged(etags))
         return call.responses().not_modified(call.request, std::move(response), *known);
+    if (conditions.none_match_any())
+        return call.responses().not_modified(call.request, std::move(response), etags.front());
     return response;
 }
 
@@ -338,7 +351,7 @@ Response publish_species(LibraryCall& call) {
     const Expected expected = expected_draft(call, name);
     if (auto refusal = refused_condition(call, name, expected, nullptr)) return *std::move(refusal);
     const std::optional<Version> draft = call.records.version(name.owner, name.name, 0);
-    if (!draft) return refused_write(call, WriteResult::missing, name);
+    if (!draft) return without_draft(call, name);
     if (expected.draft && draft->content.hash != *expected.draft) return stale(call, name, nullptr);
     // What is published can be grown at all ages; a draft need not be.
     errors.add(422,

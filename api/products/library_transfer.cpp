@@ -1,6 +1,7 @@
 // Export and import of species with all their versions, byte for byte.
 #include <algorithm>
-#include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "api/library/species_text.h"
@@ -19,11 +20,7 @@ constexpr int export_format = 1;
 Value exported(const Version& version) {
     Value images = Value::array();
     for (const Blob& blob : version.content.blobs)
-        images.push(Value::object()
-                        .set("place", blob.place)
-                        .set("media", blob.media)
-                        .set("sha256", hex_of(blob.sha256))
-                        .set("base64", base64_text(blob.bytes)));
+        images.push(Value::object().set("place", blob.place).set("sha256", hex_of(blob.sha256)));
     return Value::object()
         .set("number", version.number)
         .set("made_s", version.made)
@@ -91,8 +88,46 @@ class ExportReader {
 
 constexpr std::int64_t latest_time = std::int64_t{1} << 40U;
 
+/// The images of an export by their SHA-256: versions have most of them in common.
+using ExportedImages = std::map<Digest, std::vector<std::uint8_t>>;
+
+/// Greatest number of images of a version: three for each of eight stages.
+constexpr std::size_t most_images = 24;
+
+ExportedImages read_images(const Value::Array& given, std::vector<Problem>& problems) {
+    ExportedImages images;
+    if (given.size() > most_images * (most_versions + 1)) {
+        report(problems, "/images", std::to_string(given.size()) + " images are too many");
+        return images;
+    }
+    for (std::size_t i = 0; i < given.size() && problems.size() < most_problems; ++i) {
+        const std::string at = "/images/" + std::to_string(i);
+        const ExportReader image(given[i], at, problems);
+        std::vector<std::uint8_t> bytes;
+        if (!read_base64(image.text("base64"), bytes))
+            report(problems, at + "/base64", "is not base64 (RFC 4648, padded, no white space)");
+        const Digest digest =
+            image.digest("sha256", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        images.emplace(digest, std::move(bytes));
+    }
+    return images;
+}
+
+/// Returns true if two lists have the same images at the same places.
+bool has_same_images(std::vector<Blob> a, std::vector<Blob> b) {
+    const auto by_place = [](const Blob& one, const Blob& other) {
+        return one.place < other.place;
+    };
+    std::sort(a.begin(), a.end(), by_place);
+    std::sort(b.begin(), b.end(), by_place);
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Blob& one, const Blob& other) {
+                          return one.place == other.place && one.sha256 == other.sha256;
+                      });
+}
+
 Version read_version(const Value& json, const std::string& path, const std::string& name,
-                     std::vector<Problem>& problems) {
+                     const ExportedImages& known, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
     const ExportReader reader(json, path, problems);
     Version version;
@@ -103,18 +138,23 @@ Version read_version(const Value& json, const std::string& path, const std::stri
     version.content.format = static_cast<int>(reader.integer("format", 1, species_format));
     version.content.text = reader.text("text");
     version.content.hash = reader.digest("sha256", version.content.text);
+    if (version.note.size() > Text<200>::capacity)
+        report(problems, path + "/note",
+               "has " + std::to_string(version.note.size()) + " bytes; at most 200 are allowed");
     const Value::Array images = reader.list("images");
-    for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images.size() > most_images)
+        report(problems, path + "/images",
+               std::to_string(images.size()) + " images; at most " + std::to_string(most_images) +
+                   " are in one version");
+    for (std::size_t i = 0; i < images.size() && i < most_images; ++i) {
         const std::string at = path + "/images/" + std::to_string(i);
         const ExportReader image(images[i], at, problems);
-        Blob blob;
-        blob.place = image.text("place");
-        blob.media = image.text("media");
-        if (!read_base64(image.text("base64"), blob.bytes))
-            report(problems, at + "/base64", "is not base64 (RFC 4648, padded, no white space)");
-        blob.sha256 = image.digest(
-            "sha256", {reinterpret_cast<const char*>(blob.bytes.data()), blob.bytes.size()});
-        version.content.blobs.push_back(std::move(blob));
+        const std::string place = image.text("place");
+        const auto found = known.find(read_hex(image.text("sha256")).value_or(Digest{}));
+        if (found == known.end())
+            report(problems, at + "/sha256", "is that of no image of the export");
+        else
+            version.content.blobs.push_back({place, "", found->first, found->second});
     }
     if (problems.size() > before) return version;
     try {
@@ -128,6 +168,9 @@ Version read_version(const Value& json, const std::string& path, const std::stri
         const Content again = content_of(species);
         if (version.content.format == species_format && again.hash != version.content.hash)
             report(problems, path + "/text", "is not the canonical text of its species");
+        if (!has_same_images(version.content.blobs, again.blobs))
+            report(problems, path + "/images", "are not those that the text names");
+        version.content.blobs = again.blobs;
         version.content.kind = again.kind;
         version.content.title = again.title;
     } catch (const GenerationError& error) {
@@ -147,11 +190,19 @@ Response export_species(LibraryCall& call) {
     if (!document) return unseen(call, name);
     if (document->state == DocumentState::purged)
         return refused_write(call, WriteResult::purged, name);
-    Value versions = Value::array();
+    Value versions = Value::array(), images = Value::array();
+    std::set<Digest> written;
     for (int number = 0; number <= document->newest; ++number)
         if (const std::optional<Version> version =
-                call.records.version(name.owner, name.name, number))
+                call.records.version(name.owner, name.name, number)) {
             versions.push(exported(*version));
+            for (const Blob& blob : version->content.blobs)
+                if (written.insert(blob.sha256).second)
+                    images.push(Value::object()
+                                    .set("media", blob.media)
+                                    .set("sha256", hex_of(blob.sha256))
+                                    .set("base64", base64_text(blob.bytes)));
+        }
     Response response = library_json(Value::object()
                                          .set("format", export_format)
                                          .set("owner", name.owner)
@@ -161,7 +212,8 @@ Response export_species(LibraryCall& call) {
                                          .set("parent2", document->parent2)
                                          .set("created_s", document->created)
                                          .set("updated_s", document->updated)
-                                         .set("versions", std::move(versions)));
+                                         .set("versions", std::move(versions))
+                                         .set("images", std::move(images)));
     set_header(response, "Content-Disposition", "attachment; filename=\"" + name.name + ".json\"");
     return response;
 }
@@ -193,6 +245,7 @@ Response import_species(LibraryCall& call) {
             report(problems, key, in_quotes(*parent) + " is not the id of a species");
     document.created = reader.integer("created_s", 0, latest_time);
     document.updated = reader.integer("updated_s", 0, latest_time);
+    const ExportedImages images = read_images(reader.list("images"), problems);
     std::vector<Version> versions;
     const Value::Array given = reader.list("versions");
     if (given.empty() || given.size() > static_cast<std::size_t>(most_versions) + 1)
@@ -201,7 +254,7 @@ Response import_species(LibraryCall& call) {
                    std::to_string(most_versions) + " more");
     for (std::size_t i = 0; i < given.size() && problems.size() < most_problems; ++i) {
         const std::string path = "/versions/" + std::to_string(i);
-        versions.push_back(read_version(given[i], path, document.name, problems));
+        versions.push_back(read_version(given[i], path, document.name, images, problems));
         if (versions.back().number != static_cast<int>(i))
             report(problems, path + "/number",
                    "is " + std::to_string(versions.back().number) +

@@ -190,6 +190,7 @@ void describe(Offspring& out, const Species& a, const Species& b, const Breeding
                         " of its mutation, since with more it would cross itself.");
     const std::size_t most = info_of<Facts>("sources").most;
     std::vector<Text<160>> sources;
+    sources.reserve(notes.size() + facts.sources.size());
     for (const std::string& note : notes)
         sources.emplace_back(std::string_view(beginning(note, 160)));
     for (const Text<160>& source : facts.sources)

@@ -229,7 +229,8 @@ Traced with_shape(const FoundOutline& found_outline, const MeasuredOutline& on,
 }  // namespace
 
 Traced on_copy(Traced traced, double factor) {
-    static_cast<MarkedOutline&>(traced) = scaled(std::move(traced), factor);
+    MarkedOutline& outline = traced;
+    outline = scaled(outline, factor);
     return traced;
 }
 

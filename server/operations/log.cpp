@@ -12,6 +12,7 @@
 #include <ctime>
 #include <utility>
 
+#include "api/library/tokens.h"
 #include "api/products/photos.h"
 
 namespace sporeprint::server {
@@ -113,6 +114,21 @@ bool is_secret(std::string_view name) {
     return length == secret.size();
 }
 
+/// Replaces tokens and keys of shares, wherever they stand.
+std::string without_tokens(std::string_view target) {
+    std::string text(target);
+    for (const std::string_view prefix : {api::token_prefix, api::share_prefix})
+        for (std::size_t at = text.find(prefix); at != text.npos; at = text.find(prefix, at + 1)) {
+            const auto end = std::find_if_not(
+                text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), [](char c) {
+                    return c == '_' || c == '-' || (c >= '0' && c <= '9') ||
+                           (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+                });
+            text.replace(text.begin() + static_cast<std::ptrdiff_t>(at), end, "[redacted]");
+        }
+    return text;
+}
+
 }  // namespace
 
 std::string redacted(std::string_view target) {
@@ -176,10 +192,11 @@ void Log::request(const Served& served) {
         served.label == api::photo_pattern ? std::string_view(served.label) : served.target;
     if (std::string_view(served.label).starts_with("/v1/library/"))
         target = target.substr(0, target.find('?'));
-    if (target.find('?') == target.npos)
-        text(",\"target\":", target);
+    const std::string shown = without_tokens(target);
+    if (shown.find('?') == shown.npos)
+        text(",\"target\":", shown);
     else
-        text(",\"target\":", redacted(target));
+        text(",\"target\":", redacted(shown));
     line += ",\"status\":";
     append_number(line, served.status);
     line += ",\"bytes\":";

@@ -1,9 +1,14 @@
 #include "server/records/sqlite.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstring>
 #include <iterator>
 #include <mutex>
@@ -26,6 +31,9 @@ static_assert(std::size(sqlite_migrations) == sqlite_schema);
 
 /// How long a statement waits for another process that writes.
 constexpr int busy_ms = 2000;
+
+/// Tokens and shares that are revoked or expired are listed until there are so many times more than may be good.
+constexpr std::int64_t most_shown = 4;
 
 [[noreturn]] void unavailable(const std::filesystem::path& file, const std::string& why) {
     throw Unavailable(file.string() + ": " + why);
@@ -88,8 +96,8 @@ std::optional<Seconds> time_in(const SQLite::Column& column) {
     return column.getInt64();
 }
 
-template <class Enum, std::size_t n>
-Enum named_in(const SQLite::Column& column, const std::array<Enum, n>& all) {
+template <class Enum, std::size_t Count>
+Enum named_in(const SQLite::Column& column, const std::array<Enum, Count>& all) {
     const std::string text = column.getString();
     for (const Enum one : all)
         if (text == api::name(one)) return one;
@@ -273,7 +281,8 @@ std::string pattern_of(std::string_view part) {
 /// The connections of this process to one file: one that writes, and as many readers as there are at once.
 class Connections {
     std::filesystem::path file_;
-    std::mutex write_mutex_;
+    std::timed_mutex write_mutex_;
+    std::atomic<bool> is_log_dirty_{false};  ///< the write-ahead log has purged bytes
     std::unique_ptr<SQLite::Database> writer_;
     std::mutex readers_mutex_;
     std::vector<std::unique_ptr<SQLite::Database>> idle_readers_;
@@ -297,6 +306,13 @@ class Connections {
         // Deleted bytes are overwritten, so that nothing of a purged document is left in the file.
         database->exec("PRAGMA secure_delete = ON");
         return database;
+    }
+
+    /// Waits until this thread may write, as long as for another process.
+    std::unique_lock<std::timed_mutex> turn_to_write() {
+        std::unique_lock lock(write_mutex_, std::chrono::milliseconds(busy_ms));
+        if (!lock.owns_lock()) unavailable(file_, "too many wait to write to it");
+        return lock;
     }
 
     /// Brings the schema up to date, one transaction for each step.
@@ -348,7 +364,7 @@ class Connections {
     template <class Function>
     auto write(Function function) {
         return guarded([&] {
-            const std::lock_guard lock(write_mutex_);
+            const std::unique_lock lock = turn_to_write();
             SQLite::Transaction transaction(*writer_, SQLite::TransactionBehavior::IMMEDIATE);
             auto result = function(*writer_);
             transaction.commit();
@@ -361,7 +377,7 @@ class Connections {
     Written write_or_roll_back(Function function) {
         Written written;
         guarded([&] {
-            const std::lock_guard lock(write_mutex_);
+            const std::unique_lock lock = turn_to_write();
             SQLite::Transaction transaction(*writer_, SQLite::TransactionBehavior::IMMEDIATE);
             written.result = function(*writer_, written);
             if (written.result == WriteResult::done) transaction.commit();
@@ -370,12 +386,20 @@ class Connections {
         return written;
     }
 
-    /// Empties the write-ahead log, which has what was deleted until then.
+    /// Empties the write-ahead log, which has what was deleted until then. Where a reader of another process needs it,
+    /// this is tried again by the next call of empty_dirty_log().
     void empty_log() {
         guarded([&] {
-            const std::lock_guard lock(write_mutex_);
-            return number(*writer_, "PRAGMA wal_checkpoint(TRUNCATE)");
+            const std::unique_lock lock = turn_to_write();
+            writer_->setBusyTimeout(100);
+            is_log_dirty_ = number(*writer_, "PRAGMA wal_checkpoint(TRUNCATE)").value_or(1) != 0;
+            writer_->setBusyTimeout(busy_ms);
+            return 0;
         });
+    }
+
+    void empty_dirty_log() {
+        if (is_log_dirty_) empty_log();
     }
 };
 
@@ -603,7 +627,8 @@ class SqliteRecords final : public Records {
                     draft_to_write(database, owner, name, expected, document, draft, written);
                 found != WriteResult::done)
                 return found;
-            mark_changed(database, document.id);
+            // Of what was never published nobody else knows.
+            if (document.newest > 0) mark_changed(database, document.id);
             if (!is_purged) {
                 run(database, "UPDATE document SET state = 'unlisted', updated = ? WHERE id = ?",
                     now, document.id);
@@ -720,6 +745,7 @@ class SqliteRecords final : public Records {
     }
 
     std::vector<Change> changes(std::int64_t since) override {
+        connections_.empty_dirty_log();
         return connections_.read([&](SQLite::Database& database) {
             const SQLite::Transaction transaction(database);
             SQLite::Statement statement = prepared(database,
@@ -753,6 +779,11 @@ class SqliteRecords final : public Records {
             const std::optional<DocumentRow> document = document_row(database, owner, name);
             if (!document) return WriteResult::missing;
             if (document->state == DocumentState::purged) return WriteResult::purged;
+            run(database,
+                "DELETE FROM share WHERE document = ?1 AND (revoked IS NOT NULL OR expires <= ?2) "
+                "AND (SELECT "
+                "count(*) FROM share WHERE document = ?1) >= ?3",
+                document->id, share.created, most_shown * most_shares);
             const std::optional<std::int64_t> good = number(
                 database,
                 "SELECT count(*) FROM share WHERE document = ? AND revoked IS NULL AND expires > ?",
@@ -767,22 +798,14 @@ class SqliteRecords final : public Records {
     }
 
     std::vector<Share> shares(std::string_view owner, std::string_view name) override {
-        return connections_.read([&](SQLite::Database& database) {
-            std::vector<Share> shares;
-            const std::optional<DocumentRow> document = document_row(database, owner, name);
-            if (!document) return shares;
-            SQLite::Statement statement = prepared(database,
-                                                   "SELECT id, secret_sha256, created, expires, "
-                                                   "revoked IS NOT NULL FROM share WHERE document "
-                                                   "= ? ORDER BY created, id",
-                                                   document->id);
-            while (statement.executeStep())
-                shares.push_back(
-                    {statement.getColumn(0).getString(), digest_in(statement.getColumn(1)),
-                     statement.getColumn(2).getInt64(), statement.getColumn(3).getInt64(),
-                     statement.getColumn(4).getInt() != 0});
-            return shares;
-        });
+        return shares_where(owner, name, "");
+    }
+
+    std::optional<Share> share(std::string_view owner, std::string_view name,
+                               std::string_view id) override {
+        std::vector<Share> found = shares_where(owner, name, id);
+        if (found.empty()) return std::nullopt;
+        return std::move(found.front());
     }
 
     bool revoke_share(std::string_view owner, std::string_view name, std::string_view id) override {
@@ -828,6 +851,28 @@ class SqliteRecords final : public Records {
         document.kind = statement.getColumn(8).getString();
         document.title = statement.getColumn(9).getString();
         return document;
+    }
+
+    /// Returns the shares of a document, or that with an id.
+    std::vector<Share> shares_where(std::string_view owner, std::string_view name,
+                                    std::string_view id) {
+        return connections_.read([&](SQLite::Database& database) {
+            SQLite::Statement statement =
+                prepared(database,
+                         "SELECT s.id, s.secret_sha256, s.created, s.expires, s.revoked IS NOT "
+                         "NULL FROM share s "
+                         "JOIN document d ON d.id = s.document JOIN owner o ON o.id = d.owner "
+                         "WHERE o.name = ?1 AND "
+                         "d.name = ?2 AND (?3 = '' OR s.id = ?3) ORDER BY s.created, s.id",
+                         owner, name, id);
+            std::vector<Share> shares;
+            while (statement.executeStep())
+                shares.push_back(
+                    {statement.getColumn(0).getString(), digest_in(statement.getColumn(1)),
+                     statement.getColumn(2).getInt64(), statement.getColumn(3).getInt64(),
+                     statement.getColumn(4).getInt() != 0});
+            return shares;
+        });
     }
 
     std::vector<Owner> owners_where(const char* condition, std::string_view value) {
@@ -887,6 +932,9 @@ std::unique_ptr<Records> open_sqlite_records(const std::filesystem::path& file) 
     std::error_code error;
     if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path(), error))
         unavailable(file, "its folder does not exist");
+    // Nobody else on the machine may read drafts. The files beside it have the permissions of this one.
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR);
+    if (descriptor >= 0) ::close(descriptor);
     return std::make_unique<SqliteRecords>(file);
 }
 

@@ -124,6 +124,17 @@ TEST(Log, DoesNotHaveTheKeysOfShares) {
     const std::string text = testing::internal::GetCapturedStderr();
     EXPECT_NE(text.find("/v1/library/~kaja.red_bolete\""), std::string::npos) << text;
     EXPECT_EQ(text.find("secret"), std::string::npos) << text;
+
+    served.label = "";
+    served.target = "/v1/tokens/spk_abcdefgh_secret-Of_it/x?share=sps_abcdefgh_secret";
+    testing::internal::CaptureStderr();
+    {
+        Log log(LogLevel::info);
+        log.request(served);
+    }
+    const std::string elsewhere = testing::internal::GetCapturedStderr();
+    EXPECT_NE(elsewhere.find("/v1/tokens/[redacted]/x?share=[redacted]"), std::string::npos)
+        << elsewhere;
 }
 
 }  // namespace

@@ -266,6 +266,34 @@ TEST_F(LibraryRoutes, WithdrawnSpeciesAreUnlistedOrGone) {
     EXPECT_EQ(as_kaja("PUT", path, species_json("red_bolete"), "*").status, 410);
 }
 
+TEST_F(LibraryRoutes, OfWhatWasNeverPublishedNobodyElseKnows) {
+    const std::string path = "/v1/library/~kaja.secret";
+    as_kaja("POST", "/v1/library", species_json("secret"));
+    EXPECT_EQ(as_kaja("DELETE", path, "", "*").status, 204);
+    for (const char* const target : {"/v1/mushrooms/~kaja.secret.glb", "/v1/library/~kaja.secret",
+                                     "/v1/library/~kaja.secret@1"})
+        EXPECT_EQ(ask("GET", target).status, 404) << target;
+    EXPECT_EQ(as_kaja("DELETE", path + "?purge=true", "", "*").status, 204);
+    EXPECT_EQ(ask("GET", path).status, 404);
+    EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.secret.glb").status, 404);
+    EXPECT_EQ(as_kaja("GET", path).status, 410) << "its owner is told";
+    EXPECT_EQ(as_kaja("PUT", path, species_json("secret"), "\"stale\"").status, 410);
+    EXPECT_EQ(as_kaja("POST", path + "/publish", "{}", "*").status, 410);
+    open();
+    EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.secret.glb").status, 404);
+}
+
+TEST_F(LibraryRoutes, ImagesThatAreNoneAreNotPublished) {
+    Value json = write(built_in_atlas()->find("boletus_edulis")->species);
+    json.set("id", "no_image");
+    const std::string text = "this is no image";
+    json.find("stages")->items()[1].find("model")->find("surface")->find("cap")->set(
+        "image", base64_text({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+    ASSERT_EQ(as_kaja("POST", "/v1/library", dump(json)).status, 201);
+    const Response refused = as_kaja("POST", "/v1/library/~kaja.no_image/publish", "{}", "*");
+    EXPECT_EQ(refused.status, 422) << text_of(refused);
+}
+
 TEST_F(LibraryRoutes, AnotherProcessLearnsOfWhatIsPublished) {
     Library other(open_sqlite_records(folder_ / "library.db"));
     publish("red_bolete");
@@ -395,6 +423,23 @@ TEST_F(LibraryRoutes, ADamagedExportIsNamedAndNothingIsWritten) {
     refused("\"/versions/0/text\"", [](Value& v) {
         Value& version = v.find("versions")->items()[0];
         version.set("text", "{}").set("sha256", hex_of(sha256_of("{}")));
+    });
+    refused("\"/versions/0/note\"",
+            [](Value& v) { v.find("versions")->items()[0].set("note", std::string(201, 'n')); });
+    const std::string none = hex_of(sha256_of(""));
+    refused("\"/versions/0/images\"", [&](Value& v) {  // an image that the text does not name
+        v.find("images")->push(
+            Value::object().set("media", "image/png").set("sha256", none).set("base64", ""));
+        v.find("versions")
+            ->items()[0]
+            .find("images")
+            ->push(Value::object().set("place", "/nowhere").set("sha256", none));
+    });
+    refused("\"/versions/0/images/0/sha256\"", [&](Value& v) {
+        v.find("versions")
+            ->items()[0]
+            .find("images")
+            ->push(Value::object().set("place", "/nowhere").set("sha256", none));
     });
     refused("\"/versions/0/text\"", [](Value& v) {  // white space: another text of the same species
         Value& version = v.find("versions")->items()[0];

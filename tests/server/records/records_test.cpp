@@ -357,6 +357,9 @@ TEST_P(RecordsContract, SharesAreBoundedAndRevoked) {
     }
     share.id = "share999";
     EXPECT_EQ(records_->add_share("kaja", "bolete", share), WriteResult::too_many);
+    EXPECT_EQ(records_->share("kaja", "bolete", "share101")->expires, 100);
+    EXPECT_FALSE(records_->share("kaja", "bolete", "nothing1"));
+    EXPECT_FALSE(records_->share("sami", "bolete", "share101"));
     EXPECT_TRUE(records_->revoke_share("kaja", "bolete", "share100"));
     EXPECT_FALSE(records_->revoke_share("sami", "bolete", "share101"));
     EXPECT_EQ(records_->add_share("kaja", "bolete", share), WriteResult::done);
@@ -366,6 +369,12 @@ TEST_P(RecordsContract, SharesAreBoundedAndRevoked) {
     EXPECT_EQ(shares.front().secret, digest_of("key"));
     EXPECT_EQ(shares.front().expires, 100);
     EXPECT_EQ(records_->add_share("kaja", "nothing", share), WriteResult::missing);
+    for (int i = 0; i < 300; ++i) {  // what is revoked does not pile up
+        share.id = "again" + std::to_string(100 + i);
+        records_->revoke_share("kaja", "bolete", records_->shares("kaja", "bolete").back().id);
+        EXPECT_EQ(records_->add_share("kaja", "bolete", share), WriteResult::done);
+    }
+    EXPECT_LE(records_->shares("kaja", "bolete").size(), 5 * static_cast<std::size_t>(most_shares));
 }
 
 TEST_P(RecordsContract, ADocumentIsRestoredWithAllItsVersionsOrNotAtAll) {

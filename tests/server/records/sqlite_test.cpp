@@ -76,6 +76,37 @@ TEST_F(SqliteFile, ThePublishedIsProtectedByTheDatabaseItself) {
     EXPECT_EQ(database.execAndGet("PRAGMA integrity_check").getString(), "ok");
 }
 
+TEST_F(SqliteFile, APurgeThatAReaderHoldsUpIsFinishedLater) {
+    const std::unique_ptr<Records> records = open_sqlite_records(file_);
+    records->add_owner("kaja", 1);
+    const std::string marker = "a text that must not be found again 51d0";
+    records->create("kaja", "bolete", {marker, {}, 1, "", "", {}}, "", "", 1);
+    const auto has_marker = [&] {
+        std::string bytes;
+        for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+            std::ifstream file(entry.path(), std::ios::binary);
+            bytes.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+        }
+        return bytes.find(marker) != std::string::npos;
+    };
+    {
+        SQLite::Database reader(file_.string());
+        reader.exec("BEGIN");
+        EXPECT_EQ(reader.execAndGet("SELECT count(*) FROM version").getInt(), 1);
+        EXPECT_EQ(records->withdraw("kaja", "bolete", std::nullopt, true, 2).result,
+                  WriteResult::done);
+        EXPECT_TRUE(has_marker());
+    }
+    static_cast<void>(records->changes(0));
+    EXPECT_FALSE(has_marker());
+}
+
+TEST_F(SqliteFile, OthersOnTheMachineCannotReadIt) {
+    open_sqlite_records(file_)->add_owner("kaja", 1);
+    EXPECT_EQ(std::filesystem::status(file_).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
 TEST_F(SqliteFile, AFullDiskOrABusyFileIsUnavailable) {
     const std::unique_ptr<Records> records = open_sqlite_records(file_);
     records->add_owner("kaja", 1);
