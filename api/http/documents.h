@@ -26,6 +26,9 @@ inline constexpr const char* cached_for_an_hour =
 inline constexpr const char* immutable_for_a_year = "public, max-age=31536000, immutable";
 inline constexpr const char* revalidated = "no-cache";
 
+/// Cache-Control of what nobody but the client may have, and no cache may store.
+inline constexpr const char* private_to_client = "private, no-store";
+
 /// Returns true if bodies of a media type are sent as gzip to clients that accept it: text, JSON,
 /// JavaScript, SVG.
 [[nodiscard]] bool compressible(std::string_view content_type);

@@ -76,6 +76,22 @@ std::string cache_control(bool versioned) {
     return versioned ? immutable_for_a_year : cached_for_an_hour;
 }
 
+Response private_json(const Value& body, int status) {
+    Response response;
+    response.status = status;
+    response.headers = {{"Content-Type", "application/json"}, {"Cache-Control", private_to_client}};
+    response.body = {slice_of(dump(body))};
+    return response;
+}
+
+Response no_content() {
+    Response response;
+    response.status = 204;
+    response.has_body = false;
+    response.headers = {{"Cache-Control", "no-store"}};
+    return response;
+}
+
 void bound_freshness(Response& response, std::int64_t seconds_left) {
     constexpr std::string_view age = "max-age=";
     const std::string_view given = header_of(response, "Cache-Control");

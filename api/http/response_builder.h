@@ -30,6 +30,12 @@ std::string take_header(Response& response, std::string_view name);
 /// versioned  true if its URL contains the current version token
 [[nodiscard]] std::string cache_control(bool versioned);
 
+/// Returns a response in JSON that nobody but the client may have.
+[[nodiscard]] Response private_json(const Value& body, int status = 200);
+
+/// Returns 204: what was to be removed is gone.
+[[nodiscard]] Response no_content();
+
 /// Bounds how long the response to a URL that expires may be cached: max-age is at most the
 /// remaining lifetime of the URL, and nothing permits a cache to serve it afterwards. A response
 /// that must not be cached is left unchanged.

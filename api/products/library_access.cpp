@@ -6,7 +6,6 @@
 
 #include "api/http/text.h"
 #include "api/library/tokens.h"
-#include "api/products/photos.h"
 #include "core/params/messages.h"
 
 namespace sporeprint::api {
@@ -100,14 +99,6 @@ Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler) {
         return handler(library_call);
     };
     return Job{key, cost, std::move(run)};
-}
-
-Response library_json(const Value& body, int status) {
-    Response response;
-    response.status = status;
-    response.headers = {{"Content-Type", "application/json"}, {"Cache-Control", private_to_client}};
-    response.body = {slice_of(dump(body))};
-    return response;
 }
 
 std::string etag_of_text(const Digest& hash) { return '"' + hex_of(hash) + '"'; }

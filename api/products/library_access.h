@@ -62,9 +62,6 @@ Plan library_route(RouteCall& call) {
     return plan_library(call, Needed, Handler);
 }
 
-/// Returns a response in JSON that nobody but the client may store.
-[[nodiscard]] Response library_json(const Value& body, int status = 200);
-
 /// Returns the strong entity tag of a text: "<sha256>" with its quotes.
 [[nodiscard]] std::string etag_of_text(const Digest& hash);
 

@@ -30,15 +30,7 @@ Value described(const Share& share) {
         .set("revoked", share.is_revoked);
 }
 
-Response removed() {
-    Response response;
-    response.status = 204;
-    response.has_body = false;
-    response.headers = {{"Cache-Control", "no-store"}};
-    return response;
-}
-
-/// Reads the {species} of a path that belongs to the caller. Adds 404 if it is no name.
+/// Returns the response that refuses a species which is no name or not that of the caller; nothing if it is.
 std::optional<Response> not_own(const LibraryCall& call, const LibraryName& name,
                                 const ValidationErrors& errors) {
     if (!errors.empty()) return call.problem(errors);
@@ -64,7 +56,7 @@ Response list_shares(LibraryCall& call) {
     Value list = Value::array();
     for (const Share& share : call.records.shares(name.owner, name.name))
         list.push(described(share));
-    return library_json(Value::object().set("shares", std::move(list)));
+    return private_json(Value::object().set("shares", std::move(list)));
 }
 
 Response create_share(LibraryCall& call) {
@@ -81,7 +73,7 @@ Response create_share(LibraryCall& call) {
             507, std::to_string(most_shares) + " keys of this species are good; revoke one first");
     if (result != WriteResult::done) return refused_write(call, result, name);
     const std::string id = text_of(name);
-    Response response = library_json(
+    Response response = private_json(
         described(share)
             .set("share", secret.text)
             .set("address", call.responses().link("/v1/library/" + id + "?share=" + secret.text)),
@@ -98,13 +90,13 @@ Response delete_share(LibraryCall& call) {
     if (!call.records.revoke_share(name.owner, name.name, call.captured[1]))
         return call.problem(404,
                             "there is no key " + in_quotes(call.captured[1]) + " of this species");
-    return removed();
+    return no_content();
 }
 
 Response get_quota(LibraryCall& call) {
     const std::optional<Owner> owner = call.records.owner(call.caller.owner);
     if (!owner) return call.problem(404, "the owner of the token is gone");
-    return library_json(Value::object()
+    return private_json(Value::object()
                             .set("owner", owner->name)
                             .set("scope", name(call.caller.scope))
                             .set("species", owner->documents)
@@ -119,7 +111,7 @@ Response get_quota(LibraryCall& call) {
 Response list_tokens(LibraryCall& call) {
     Value list = Value::array();
     for (const Token& token : call.records.tokens(call.caller.owner)) list.push(described(token));
-    return library_json(Value::object().set("tokens", std::move(list)));
+    return private_json(Value::object().set("tokens", std::move(list)));
 }
 
 Response create_token(LibraryCall& call) {
@@ -141,7 +133,7 @@ Response create_token(LibraryCall& call) {
                             std::to_string(most_tokens) + " tokens are good; revoke one first");
     if (result != WriteResult::done) return call.problem(404, "the owner of the token is gone");
     // This is the only time that the secret is shown.
-    Response response = library_json(described(token).set("token", secret.text), 201);
+    Response response = private_json(described(token).set("token", secret.text), 201);
     set_header(response, "Location", call.responses().link("/v1/tokens/" + secret.id));
     return response;
 }
@@ -149,7 +141,7 @@ Response create_token(LibraryCall& call) {
 Response delete_token(LibraryCall& call) {
     if (!call.records.revoke_token(call.caller.owner, call.captured[0], call.library.now()))
         return call.problem(404, "you have no token " + in_quotes(call.captured[0]));
-    return removed();
+    return no_content();
 }
 
 }  // namespace sporeprint::api

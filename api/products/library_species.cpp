@@ -59,7 +59,7 @@ Response written_response(const LibraryCall& call, const LibraryName& name, cons
         }
     Value body = described(*document);
     body.set("revision", written.revision).set("draft", etag_of_text(written.current));
-    Response response = library_json(body, status);
+    Response response = private_json(body, status);
     set_header(response, "ETag", etag_of_text(written.current));
     if (status == 201)
         set_header(response, "Location",
@@ -248,7 +248,7 @@ Response list_library(LibraryCall& call) {
     if (is_more) found.pop_back();
     Value list = Value::array();
     for (const StoredDocument& document : found) list.push(described(document));
-    return library_json(
+    return private_json(
         Value::object()
             .set("species", std::move(list))
             .set("next",
@@ -304,7 +304,7 @@ Response get_library_species(LibraryCall& call) {
                                      std::to_string(document->newest));
     }
     const std::string etag = etag_of_text(version->content.hash);
-    Response response = library_json(json_of(version->content));
+    Response response = private_json(json_of(version->content));
     // A published version never changes, but may be withdrawn.
     if (name.number > 0) set_header(response, "Cache-Control", cache_control(false));
     set_header(response, "ETag", etag);
@@ -410,11 +410,7 @@ Response delete_species(LibraryCall& call) {
                                                   removal.purge, call.library.now());
     if (written.result != WriteResult::done) return refused_write(call, written.result, name);
     call.library.refresh();
-    Response response;
-    response.status = 204;
-    response.has_body = false;
-    response.headers = {{"Cache-Control", "no-store"}};
-    return response;
+    return no_content();
 }
 
 }  // namespace sporeprint::api

@@ -203,7 +203,7 @@ Response export_species(LibraryCall& call) {
                                     .set("sha256", hex_of(blob.sha256))
                                     .set("base64", base64_text(blob.bytes)));
         }
-    Response response = library_json(Value::object()
+    Response response = private_json(Value::object()
                                          .set("format", export_format)
                                          .set("owner", name.owner)
                                          .set("name", name.name)
@@ -269,12 +269,12 @@ Response import_species(LibraryCall& call) {
     if (options.dry_run) {
         if (call.records.document(name.owner, name.name))
             return refused_write(call, WriteResult::taken, name);
-        return library_json(result);
+        return private_json(result);
     }
     const Written written = call.records.restore(document, versions);
     if (written.result != WriteResult::done) return refused_write(call, written.result, name);
     call.library.refresh();
-    Response response = library_json(result, 201);
+    Response response = private_json(result, 201);
     set_header(response, "Location", call.responses().link("/v1/library/" + text_of(name)));
     return response;
 }

@@ -64,12 +64,8 @@ Plan plan_upload(RouteCall& call) {
         about.set("width", photo.picture.width).set("height", photo.picture.height);
         about.set("alpha", has_alpha);
         about.set("expires_s", Photos::lifetime.count());
-        Response response;
-        response.status = 201;
-        response.headers = {{"Content-Type", "application/json"},
-                            {"Cache-Control", private_to_client},
-                            {"Location", responses.link("/v1/photos/" + name + ".jpg")}};
-        response.body = {slice_of(dump(about))};
+        Response response = private_json(about, 201);
+        set_header(response, "Location", responses.link("/v1/photos/" + name + ".jpg"));
         return response;
     };
     // Each upload is a piece of work of its own: two clients never share the name of a photograph.
@@ -100,10 +96,7 @@ Plan plan_removal(RouteCall& call) {
     if (!call.errors.empty()) return responses.problem(call.request, call.errors);
     if (!call.context.store.photos.erase(call.captured[0], std::chrono::steady_clock::now()))
         return gone(call);
-    Response response;
-    response.status = 204;
-    response.has_body = false;
-    response.headers = {{"Cache-Control", "no-store"}};
+    Response response = no_content();
     responses.add_common_headers(call.request, response);
     return response;
 }

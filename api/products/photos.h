@@ -8,9 +8,6 @@ namespace sporeprint::api {
 /// The path of a photograph. Its name is a secret, which no log may contain.
 inline constexpr const char* photo_pattern = "/v1/photos/{photo}.jpg";
 
-/// Cache-Control of photographs and of what is made of them: nobody but the client may store it.
-inline constexpr const char* private_to_client = "private, no-store";
-
 /// What is said of a name that no photograph has.
 inline constexpr const char* photo_is_gone =
     "there is no photograph of this name, or no longer; upload it again";

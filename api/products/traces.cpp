@@ -92,14 +92,6 @@ Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
     return body;
 }
 
-/// Returns a response that only the client with the photograph may store.
-Response private_json(const Value& body) {
-    Response response;
-    response.headers = {{"Content-Type", json}, {"Cache-Control", private_to_client}};
-    response.body = {slice_of(dump(body))};
-    return response;
-}
-
 /// Reads a body as a described struct, and what is wrong with it.
 template <class Spec>
 std::pair<Spec, std::vector<Problem>> read_spec(std::string_view body, ValidationErrors& errors) {
