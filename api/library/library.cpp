@@ -78,7 +78,7 @@ Library::Found Library::find(std::string_view id) {
         }
         if (known->second.state == DocumentState::purged) {
             found.status = 410;
-            found.message = in_quotes(document) + " was withdrawn by its owner";
+            found.message = withdrawn_message({name->owner, name->name});
             return found;
         }
         const int newest = known->second.versions.back().first;
@@ -103,7 +103,7 @@ std::shared_ptr<const AtlasEntry> Library::load(const LibraryName& name) {
         [&] {
             const std::optional<Version> version =
                 records_->version(name.owner, name.name, name.number);
-            if (!version) throw InvalidInput("mix", in_quotes(id) + " was withdrawn by its owner");
+            if (!version) throw InvalidInput("mix", withdrawn_message(name));
             return entry_of(species_of(version->content), id);
         },
         {}, hit);

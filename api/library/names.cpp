@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "api/library/records.h"
+#include "core/params/messages.h"
 
 namespace sporeprint::api {
 
@@ -46,6 +47,10 @@ std::string text_of(const LibraryName& name) {
     std::string text = '~' + name.owner + '.' + name.name;
     if (name.number > 0) (text += '@') += std::to_string(name.number);
     return text;
+}
+
+std::string withdrawn_message(const LibraryName& name) {
+    return in_quotes(text_of(name)) + " was withdrawn by its owner";
 }
 
 }  // namespace sporeprint::api

@@ -41,6 +41,9 @@ inline constexpr const char* name_grammar = "1 to 24 characters a-z, 0-9 and _, 
 /// Returns "~owner.name", and "@3" after it for a version.
 [[nodiscard]] std::string text_of(const LibraryName& name);
 
+/// Returns what is said of a species that its owner has purged.
+[[nodiscard]] std::string withdrawn_message(const LibraryName& name);
+
 /// Thrown where a request names species of the library that its atlas does not have. The service loads them and plans
 /// the request again.
 class SpeciesOfLibrary : public std::runtime_error {

@@ -12,13 +12,6 @@ namespace sporeprint::api {
 
 namespace {
 
-Response unauthorized(const ResponseBuilder& responses, const Request& request,
-                      std::string_view detail) {
-    Response response = responses.problem(request, 401, detail);
-    set_header(response, "WWW-Authenticate", "Bearer realm=\"sporeprint\"");
-    return response;
-}
-
 /// Finds out who sends a request. An unknown id takes as long as a wrong secret.
 ///
 /// returns  the caller, or the response that refuses the token
@@ -68,6 +61,13 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
 }
 
 }  // namespace
+
+Response unauthorized(const ResponseBuilder& responses, const Request& request,
+                      std::string_view detail) {
+    Response response = responses.problem(request, 401, detail);
+    set_header(response, "WWW-Authenticate", "Bearer realm=\"sporeprint\"");
+    return response;
+}
 
 Response withdrawn(const ResponseBuilder& responses, const Request& request,
                    std::string_view detail) {

@@ -15,6 +15,10 @@ namespace sporeprint::api {
 inline constexpr const char* no_library =
     "this service has no library of species; its operator starts it with --library FILE";
 
+/// Returns 401, with the scheme of tokens.
+[[nodiscard]] Response unauthorized(const ResponseBuilder& responses, const Request& request,
+                                    std::string_view detail);
+
 /// Returns 410 for a species that its owner has withdrawn.
 [[nodiscard]] Response withdrawn(const ResponseBuilder& responses, const Request& request,
                                  std::string_view detail);

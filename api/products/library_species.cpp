@@ -192,7 +192,7 @@ Response refused_write(const LibraryCall& call, WriteResult result, const Librar
                                          ", or had one; names are never given again");
         case WriteResult::purged:
             return withdrawn(call.responses(), call.request,
-                             in_quotes(id) + " was withdrawn by its owner");
+                             withdrawn_message({name.owner, name.name}));
         case WriteResult::too_many:
         case WriteResult::too_large: {
             const std::optional<Owner> owner = call.records.owner(name.owner);
@@ -225,11 +225,8 @@ Response list_library(LibraryCall& call) {
     listing.parent = text(filter.parent);
     listing.part = text(filter.q);
     listing.limit = filter.limit + 1;
-    if (filter.mine && call.caller.owner.empty()) {
-        Response response = call.problem(401, "mine=true needs a token of the owner");
-        set_header(response, "WWW-Authenticate", "Bearer realm=\"sporeprint\"");
-        return response;
-    }
+    if (filter.mine && call.caller.owner.empty())
+        return unauthorized(call.responses(), call.request, "mine=true needs a token of the owner");
     if (filter.mine) listing.owner = call.caller.owner;
     // Without mine=true a token changes nothing, so that a page shows what all others see.
     if (filter.mine) listing.reader = call.caller.owner;
@@ -289,9 +286,8 @@ Response get_library_species(LibraryCall& call) {
     const std::optional<StoredDocument> document = call.records.document(name.owner, name.name);
     if (document && document->state == DocumentState::purged &&
         (document->newest > 0 || call.caller.is(name.owner)))
-        return withdrawn(
-            call.responses(), call.request,
-            in_quotes(text_of({name.owner, name.name})) + " was withdrawn by its owner");
+        return withdrawn(call.responses(), call.request,
+                         withdrawn_message({name.owner, name.name}));
     const bool may_see = name.number > 0 || call.caller.is(name.owner) ||
                          (key.share && is_shared(call, name, key.share->view()));
     const std::optional<Version> version =
