@@ -161,6 +161,13 @@ DraftRow draft_row(SQLite::Database& database, std::int64_t document) {
             statement.getColumn(2).getInt64()};
 }
 
+/// A draft that a write may change, with its document and the id of its owner.
+struct DraftToWrite {
+    std::int64_t owner;
+    DocumentRow document;
+    DraftRow draft;
+};
+
 std::int64_t size_of_text(const Content& content) {
     return static_cast<std::int64_t>(content.text.size());
 }
@@ -266,7 +273,7 @@ bool add_bytes(SQLite::Database& database, std::int64_t owner, std::int64_t byte
            number(database, "SELECT used_bytes <= max_bytes FROM owner WHERE id = ?", owner) == 1;
 }
 
-/// Returns the beginning of a pattern of LIKE that matches texts with this part.
+/// Returns the pattern of LIKE that matches texts with this part.
 std::string pattern_of(std::string_view part) {
     std::string pattern = "%";
     for (const char c : part) {
@@ -404,6 +411,30 @@ class Connections {
 };
 
 class SqliteRecords final : public Records {
+    Connections connections_;
+
+    /// Calls a function in a transaction with a draft that exists and is the expected one, and commits what is done.
+    ///
+    /// returns  missing, purged or stale if it is not, else what the function returns; `current` and `revision` are
+    ///          those of the draft as it was found, unless the function sets others
+    template <class Function>
+    Written write_draft(std::string_view owner, std::string_view name,
+                        const std::optional<Digest>& expected, Function function) {
+        return connections_.write_or_roll_back([&](SQLite::Database& database, Written& written) {
+            const std::optional<OwnerRow> found_owner = owner_row(database, owner);
+            if (!found_owner) return WriteResult::missing;
+            const std::optional<DocumentRow> document =
+                document_row(database, found_owner->id, name);
+            if (!document) return WriteResult::missing;
+            if (document->state == DocumentState::purged) return WriteResult::purged;
+            const DraftToWrite found{found_owner->id, *document, draft_row(database, document->id)};
+            written.current = found.draft.hash;
+            written.revision = found.draft.revision;
+            if (expected && *expected != found.draft.hash) return WriteResult::stale;
+            return function(database, found, written);
+        });
+    }
+
   public:
     explicit SqliteRecords(const std::filesystem::path& file) : connections_(file) {}
 
@@ -546,113 +577,106 @@ class SqliteRecords final : public Records {
     Written replace(std::string_view owner, std::string_view name,
                     const std::optional<Digest>& expected, const Content& content,
                     Seconds now) override {
-        return connections_.write_or_roll_back([&](SQLite::Database& database, Written& written) {
-            const std::optional<OwnerRow> owner_found = owner_row(database, owner);
-            DocumentRow document{};
-            DraftRow draft{};
-            if (const WriteResult found =
-                    draft_to_write(database, owner, name, expected, document, draft, written);
-                found != WriteResult::done)
-                return found;
-            Digests digests = digests_of(database, document.id, 0);
-            const Digests added = digests_of(content);
-            digests.insert(added.begin(), added.end());
-            std::int64_t bytes = -bytes_of_blobs(database, owner_found->id, digests) - draft.size;
-            replace_blobs(database, document.id, content.blobs);
-            run(database,
-                "UPDATE version SET revision = revision + 1, hash = ?, format = ?, kind = ?, title "
-                "= ?, "
-                "size = ?, made = ?, text = ? WHERE document = ? AND number = 0",
-                content.hash, content.format, content.kind, content.title, size_of_text(content),
-                now, content.text, document.id);
-            run(database, "UPDATE document SET updated = ? WHERE id = ?", now, document.id);
-            bytes += bytes_of_blobs(database, owner_found->id, digests) + size_of_text(content);
-            written.current = content.hash;
-            written.revision = draft.revision + 1;
-            return add_bytes(database, owner_found->id, bytes) ? WriteResult::done
+        return write_draft(
+            owner, name, expected,
+            [&](SQLite::Database& database, const DraftToWrite& found, Written& written) {
+                Digests digests = digests_of(database, found.document.id, 0);
+                const Digests added = digests_of(content);
+                digests.insert(added.begin(), added.end());
+                std::int64_t bytes =
+                    -bytes_of_blobs(database, found.owner, digests) - found.draft.size;
+                replace_blobs(database, found.document.id, content.blobs);
+                run(database,
+                    "UPDATE version SET revision = revision + 1, hash = ?, format = ?, kind = ?, "
+                    "title "
+                    "= ?, "
+                    "size = ?, made = ?, text = ? WHERE document = ? AND number = 0",
+                    content.hash, content.format, content.kind, content.title,
+                    size_of_text(content), now, content.text, found.document.id);
+                run(database, "UPDATE document SET updated = ? WHERE id = ?", now,
+                    found.document.id);
+                bytes += bytes_of_blobs(database, found.owner, digests) + size_of_text(content);
+                written.current = content.hash;
+                written.revision = found.draft.revision + 1;
+                return add_bytes(database, found.owner, bytes) ? WriteResult::done
                                                                : WriteResult::too_large;
-        });
+            });
     }
 
     Written publish(std::string_view owner, std::string_view name,
                     const std::optional<Digest>& expected, std::string_view note,
                     Seconds now) override {
-        return connections_.write_or_roll_back([&](SQLite::Database& database, Written& written) {
-            const std::optional<OwnerRow> owner_found = owner_row(database, owner);
-            DocumentRow document{};
-            DraftRow draft{};
-            if (const WriteResult found =
-                    draft_to_write(database, owner, name, expected, document, draft, written);
-                found != WriteResult::done)
-                return found;
-            if (document.newest >= most_versions) return WriteResult::too_many;
-            written.number = document.newest + 1;
-            run(database,
-                "INSERT INTO version (document, number, revision, hash, format, kind, title, size, "
-                "made, "
-                "note, text) SELECT document, ?1, revision, hash, format, kind, title, size, ?2, "
-                "?3, text "
-                "FROM version WHERE document = ?4 AND number = 0",
-                written.number, now, note, document.id);
-            run(database,
-                "INSERT INTO version_blob (document, number, place, sha256) SELECT document, ?1, "
-                "place, "
-                "sha256 FROM version_blob WHERE document = ?2 AND number = 0",
-                written.number, document.id);
-            run(database,
-                "UPDATE blob SET refs = refs + (SELECT count(*) FROM version_blob v WHERE v.sha256 "
-                "= "
-                "blob.sha256 AND v.document = ?1 AND v.number = ?2) WHERE sha256 IN (SELECT sha256 "
-                "FROM "
-                "version_blob WHERE document = ?1 AND number = ?2)",
-                document.id, written.number);
-            // Publishing what was withdrawn puts it into lists again.
-            run(database,
-                "UPDATE document SET newest = ?, updated = ?, state = 'active' WHERE id = ?",
-                written.number, now, document.id);
-            mark_changed(database, document.id);
-            return add_bytes(database, owner_found->id, draft.size) ? WriteResult::done
-                                                                    : WriteResult::too_large;
-        });
+        return write_draft(
+            owner, name, expected,
+            [&](SQLite::Database& database, const DraftToWrite& found, Written& written) {
+                if (found.document.newest >= most_versions) return WriteResult::too_many;
+                written.number = found.document.newest + 1;
+                run(database,
+                    "INSERT INTO version (document, number, revision, hash, format, kind, title, "
+                    "size, "
+                    "made, "
+                    "note, text) SELECT document, ?1, revision, hash, format, kind, title, size, "
+                    "?2, "
+                    "?3, text "
+                    "FROM version WHERE document = ?4 AND number = 0",
+                    written.number, now, note, found.document.id);
+                run(database,
+                    "INSERT INTO version_blob (document, number, place, sha256) SELECT document, "
+                    "?1, "
+                    "place, "
+                    "sha256 FROM version_blob WHERE document = ?2 AND number = 0",
+                    written.number, found.document.id);
+                run(database,
+                    "UPDATE blob SET refs = refs + (SELECT count(*) FROM version_blob v WHERE "
+                    "v.sha256 "
+                    "= "
+                    "blob.sha256 AND v.document = ?1 AND v.number = ?2) WHERE sha256 IN (SELECT "
+                    "sha256 "
+                    "FROM "
+                    "version_blob WHERE document = ?1 AND number = ?2)",
+                    found.document.id, written.number);
+                // Publishing what was withdrawn puts it into lists again.
+                run(database,
+                    "UPDATE document SET newest = ?, updated = ?, state = 'active' WHERE id = ?",
+                    written.number, now, found.document.id);
+                mark_changed(database, found.document.id);
+                return add_bytes(database, found.owner, found.draft.size) ? WriteResult::done
+                                                                          : WriteResult::too_large;
+            });
     }
 
     Written withdraw(std::string_view owner, std::string_view name,
                      const std::optional<Digest>& expected, bool is_purged, Seconds now) override {
-        const Written done = connections_.write_or_roll_back([&](SQLite::Database& database,
-                                                                 Written& written) {
-            const std::optional<OwnerRow> owner_found = owner_row(database, owner);
-            DocumentRow document{};
-            DraftRow draft{};
-            if (const WriteResult found =
-                    draft_to_write(database, owner, name, expected, document, draft, written);
-                found != WriteResult::done)
-                return found;
-            // Of what was never published nobody else knows.
-            if (document.newest > 0) mark_changed(database, document.id);
-            if (!is_purged) {
-                run(database, "UPDATE document SET state = 'unlisted', updated = ? WHERE id = ?",
-                    now, document.id);
+        const Written done = write_draft(
+            owner, name, expected,
+            [&](SQLite::Database& database, const DraftToWrite& found, Written&) {
+                // Of what was never published nobody else knows.
+                if (found.document.newest > 0) mark_changed(database, found.document.id);
+                if (!is_purged) {
+                    run(database,
+                        "UPDATE document SET state = 'unlisted', updated = ? WHERE id = ?", now,
+                        found.document.id);
+                    return WriteResult::done;
+                }
+                const Digests digests = digests_of(database, found.document.id, -1);
+                std::int64_t bytes = -bytes_of_blobs(database, found.owner, digests);
+                bytes -= number(database, "SELECT sum(size) FROM version WHERE document = ?",
+                                found.document.id)
+                             .value_or(0);
+                untie_blobs(database, found.document.id, -1);
+                drop_unused_blobs(database);
+                run(database, "DELETE FROM version WHERE document = ?", found.document.id);
+                run(database, "DELETE FROM share WHERE document = ?", found.document.id);
+                bytes += bytes_of_blobs(database, found.owner, digests);
+                run(database,
+                    "UPDATE document SET state = 'purged', updated = ?, parent = '', parent2 = '' "
+                    "WHERE id = ?",
+                    now, found.document.id);
+                run(database, "UPDATE owner SET documents = documents - 1 WHERE id = ?",
+                    found.owner);
+                add_bytes(database, found.owner, bytes);
                 return WriteResult::done;
-            }
-            const Digests digests = digests_of(database, document.id, -1);
-            std::int64_t bytes = -bytes_of_blobs(database, owner_found->id, digests);
-            bytes -=
-                number(database, "SELECT sum(size) FROM version WHERE document = ?", document.id)
-                    .value_or(0);
-            untie_blobs(database, document.id, -1);
-            drop_unused_blobs(database);
-            run(database, "DELETE FROM version WHERE document = ?", document.id);
-            run(database, "DELETE FROM share WHERE document = ?", document.id);
-            bytes += bytes_of_blobs(database, owner_found->id, digests);
-            run(database,
-                "UPDATE document SET state = 'purged', updated = ?, parent = '', parent2 = '' "
-                "WHERE id = ?",
-                now, document.id);
-            run(database, "UPDATE owner SET documents = documents - 1 WHERE id = ?",
-                owner_found->id);
-            add_bytes(database, owner_found->id, bytes);
-            return WriteResult::done;
-        });
+            });
         // The write-ahead log has the purged bytes until it is emptied.
         if (is_purged && done.result == WriteResult::done) connections_.empty_log();
         return done;
@@ -820,24 +844,6 @@ class SqliteRecords final : public Records {
     }
 
   private:
-    Connections connections_;
-
-    /// Finds a draft that is to be written, and compares it with the expected one.
-    ///
-    /// returns  done, missing, purged or stale; for the last, `written` has what the draft is now
-    static WriteResult draft_to_write(SQLite::Database& database, std::string_view owner,
-                                      std::string_view name, const std::optional<Digest>& expected,
-                                      DocumentRow& document, DraftRow& draft, Written& written) {
-        const std::optional<DocumentRow> found = document_row(database, owner, name);
-        if (!found) return WriteResult::missing;
-        if (found->state == DocumentState::purged) return WriteResult::purged;
-        document = *found;
-        draft = draft_row(database, document.id);
-        written.current = draft.hash;
-        written.revision = draft.revision;
-        return !expected || *expected == draft.hash ? WriteResult::done : WriteResult::stale;
-    }
-
     static StoredDocument document_in(SQLite::Statement& statement) {
         StoredDocument document;
         document.owner = statement.getColumn(0).getString();
