@@ -141,9 +141,10 @@ std::optional<Response> refused_condition(const LibraryCall& call, const Library
     return std::nullopt;
 }
 
-/// Returns the result of growing a species at some ages: the reasons why it cannot be grown.
-std::vector<Problem> obstacles(const LibraryCall& call, const Species& species,
+/// Returns the reasons why a stored species cannot be grown at one of its ages.
+std::vector<Problem> obstacles(const LibraryCall& call, const Content& content,
                                const std::string& id) {
+    const Species species = species_of(content);
     std::vector<double> ages;
     for (std::size_t i = 0; i < species.stages.size(); ++i) {
         ages.push_back(species.stages[i].age);
@@ -155,8 +156,7 @@ std::vector<Problem> obstacles(const LibraryCall& call, const Species& species,
     spec.mix = {{id, 1000}};
     spec.params.lod = 3;
     // Images are decoded where they are painted.
-    const bool has_images = !content_of(species).blobs.empty();
-    if (!has_images) spec.params.textures = Textures::none;
+    if (content.blobs.empty()) spec.params.textures = Textures::none;
     spec.params.texture_size = {128};
     for (const double age : ages) {
         spec.params.age = std::clamp(age, 0.0, 1.0);
@@ -350,8 +350,7 @@ Response publish_species(LibraryCall& call) {
     if (!draft) return without_draft(call, name);
     if (expected.draft && draft->content.hash != *expected.draft) return stale(call, name, nullptr);
     // What is published can be grown at all ages; a draft need not be.
-    errors.add(422,
-               obstacles(call, species_of(draft->content), text_of({name.owner, name.name, 1})));
+    errors.add(422, obstacles(call, draft->content, text_of({name.owner, name.name, 1})));
     if (!errors.empty()) return call.problem(errors);
     const Written written = call.records.publish(name.owner, name.name, draft->content.hash,
                                                  order.note.view(), call.library.now());
