@@ -53,6 +53,18 @@ bool equal_in_constant_time(const Digest& a, const Digest& b) {
     return CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
 
+Token stored_token(const Secret& secret, const std::string& owner, const std::string& label,
+                   Scope scope, Seconds now) {
+    Token token;
+    token.id = secret.id;
+    token.owner = owner;
+    token.secret = secret.digest;
+    token.label = label;
+    token.scope = scope;
+    token.created = now;
+    return token;
+}
+
 Digest sha256_of(std::string_view bytes) {
     return read_hex(sha256_hex(bytes.data(), bytes.size())).value();
 }

@@ -29,6 +29,17 @@ inline constexpr std::string_view token_prefix = "spk_", share_prefix = "sps_";
 /// Returns true if two digests are equal, in a time that does not depend on where they differ.
 [[nodiscard]] bool equal_in_constant_time(const Digest& a, const Digest& b);
 
+/// Returns true if a stored token or share exists and has this secret. Takes as long if there is none.
+template <class Stored>
+[[nodiscard]] bool has_secret(const std::optional<Stored>& stored, const Secret& secret) {
+    return equal_in_constant_time(stored ? stored->secret : Digest{}, secret.digest) &&
+           stored.has_value();
+}
+
+/// Returns a token as it is stored, which never expires.
+[[nodiscard]] Token stored_token(const Secret& secret, const std::string& owner,
+                                 const std::string& label, Scope scope, Seconds now);
+
 [[nodiscard]] Digest sha256_of(std::string_view bytes);
 
 /// Returns 64 hexadecimal digits, and reads them; nothing for any other text.

@@ -33,10 +33,9 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
                             "the Authorization header is not 'Bearer' and a token, spk_ with 8 and "
                             "43 characters");
     const std::optional<Token> token = library.records().token(secret->id);
-    const bool is_equal =
-        equal_in_constant_time(token ? token->secret : Digest{}, secret->digest) && token;
     const Seconds now = library.now();
-    if (!is_equal) return unauthorized(responses, request, "there is no such token");
+    if (!has_secret(token, *secret))
+        return unauthorized(responses, request, "there is no such token");
     if (token->revoked) return unauthorized(responses, request, "the token was revoked");
     if (token->expires && *token->expires <= now)
         return unauthorized(responses, request, "the token has expired");

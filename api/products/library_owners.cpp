@@ -44,9 +44,7 @@ bool is_shared(const LibraryCall& call, const LibraryName& name, std::string_vie
     const std::optional<Secret> secret = read_secret(share_prefix, key);
     if (!secret) return false;
     const std::optional<Share> share = call.records.share(name.owner, name.name, secret->id);
-    const bool is_equal =
-        equal_in_constant_time(share ? share->secret : Digest{}, secret->digest) && share;
-    return is_equal && !share->is_revoked && share->expires > call.library.now();
+    return has_secret(share, *secret) && !share->is_revoked && share->expires > call.library.now();
 }
 
 Response list_shares(LibraryCall& call) {
@@ -119,13 +117,8 @@ Response create_token(LibraryCall& call) {
     const auto order = read_order<TokenOrder>(call, errors);
     if (!errors.empty()) return call.problem(errors);
     const Secret secret = new_secret(token_prefix);
-    Token token;
-    token.id = secret.id;
-    token.owner = call.caller.owner;
-    token.secret = secret.digest;
-    token.label = order.label.string();
-    token.scope = order.scope;
-    token.created = call.library.now();
+    Token token = stored_token(secret, call.caller.owner, order.label.string(), order.scope,
+                               call.library.now());
     if (order.expires_s) token.expires = token.created + *order.expires_s;
     const WriteResult result = call.records.add_token(token);
     if (result == WriteResult::too_many)

@@ -35,14 +35,8 @@ std::string token_lines(const std::string& owner, const std::string& token) {
 std::string new_admin_token(api::Records& records, const std::string& owner,
                             const std::string& label, api::Seconds now) {
     const api::Secret secret = api::new_secret(api::token_prefix);
-    api::Token token;
-    token.id = secret.id;
-    token.owner = owner;
-    token.secret = secret.digest;
-    token.label = label;
-    token.scope = api::Scope::admin;
-    token.created = now;
-    const api::WriteResult result = records.add_token(token);
+    const api::WriteResult result =
+        records.add_token(api::stored_token(secret, owner, label, api::Scope::admin, now));
     if (result == api::WriteResult::too_many)
         throw InvalidInput("NAME", owner + " has " + std::to_string(api::most_tokens) +
                                        " tokens already; revoke one first");
