@@ -125,7 +125,7 @@ void announce(const Options& options, bool has_page, int port) {
 /// throws  api::Unavailable, InvalidInput
 std::shared_ptr<api::Library> library_of(const Options& options) {
     if (options.library.empty()) return nullptr;
-    return std::make_shared<api::Library>(open_records(options.library.view()));
+    return std::make_shared<api::Library>(open_records(options.library.view()), seconds_since_1970);
 }
 
 /// Gives the operator of a service with an empty library the means to write to it. The token is in a fragment,

@@ -1,7 +1,6 @@
 #include "api/library/library.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "api/library/species_text.h"
@@ -19,11 +18,6 @@ std::size_t size_of_entry(const std::shared_ptr<const AtlasEntry>& entry) {
     return 3 * entry->json.size() + sizeof(AtlasEntry);
 }
 
-Seconds seconds_since_1970() {
-    using namespace std::chrono;
-    return duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 std::shared_ptr<const AtlasEntry> entry_of(Species species, const std::string& id) {
@@ -32,9 +26,7 @@ std::shared_ptr<const AtlasEntry> entry_of(Species species, const std::string& i
 }
 
 Library::Library(std::shared_ptr<Records> records, Clock clock)
-    : records_(std::move(records)),
-      clock_(clock ? std::move(clock) : seconds_since_1970),
-      entries_(cache_bytes, size_of_entry) {
+    : records_(std::move(records)), clock_(std::move(clock)), entries_(cache_bytes, size_of_entry) {
     refresh();
 }
 

@@ -26,8 +26,9 @@ class Library {
 
     /// Reads what is published.
     ///
+    /// clock   may be called on any thread
     /// throws  Unavailable
-    explicit Library(std::shared_ptr<Records> records, Clock clock = {});
+    Library(std::shared_ptr<Records> records, Clock clock);
 
     /// The database. Its functions block, so jobs alone call them.
     [[nodiscard]] Records& records() { return *records_; }

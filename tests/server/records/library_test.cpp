@@ -295,7 +295,7 @@ TEST_F(LibraryRoutes, ImagesThatAreNoneAreNotPublished) {
 }
 
 TEST_F(LibraryRoutes, AnotherProcessLearnsOfWhatIsPublished) {
-    Library other(open_sqlite_records(folder_ / "library.db"));
+    Library other(open_sqlite_records(folder_ / "library.db"), [this] { return now_; });
     publish("red_bolete");
     EXPECT_EQ(other.find("~kaja.red_bolete").status, 404);
     EXPECT_TRUE(other.refresh());
