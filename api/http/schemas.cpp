@@ -22,11 +22,14 @@ Value typed(const char* type) { return object({{"type", type}}); }
 Value list_of(Value items) { return object({{"type", "array"}, {"items", std::move(items)}}); }
 
 Value objects(std::initializer_list<Value::Member> properties) {
+    return objects(Value::Object(properties));
+}
+
+Value objects(const Value::Object& properties) {
     Value required = Value::array();
     for (const auto& property : properties) required.push(property.first);
-    return object({{"type", "object"},
-                   {"properties", object(properties)},
-                   {"required", std::move(required)}});
+    return object(
+        {{"type", "object"}, {"properties", Value(properties)}, {"required", std::move(required)}});
 }
 
 Value map_of(Value values) {

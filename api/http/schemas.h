@@ -28,6 +28,7 @@ namespace sporeprint::api {
 
 /// Returns the schema of an object whose properties are all required.
 [[nodiscard]] Value objects(std::initializer_list<Value::Member> properties);
+[[nodiscard]] Value objects(const Value::Object& properties);
 
 /// Returns the schema of an object with any names whose values have one schema.
 [[nodiscard]] Value map_of(Value values);

@@ -267,18 +267,6 @@ Value::Object species_members() {
             {"links", links}};
 }
 
-Value of_object(const Value::Object& members) {
-    Value properties = Value::object();
-    Value required = Value::array();
-    for (const auto& [key, value] : members) {
-        properties.set(key, value);
-        required.push(key);
-    }
-    return object({{"type", "object"},
-                   {"properties", std::move(properties)},
-                   {"required", std::move(required)}});
-}
-
 void add_library_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string"), whole = typed("integer");
     Value::Object written = species_members();
@@ -303,8 +291,8 @@ void add_library_schemas(Value& schemas, const Atlas&) {
     Value::Object new_share = share;
     new_share.emplace_back("share", text);
     new_share.emplace_back("address", text);
-    schemas.set("library_species", of_object(written))
-        .set("library_list", objects({{"species", list_of(of_object(species_members()))},
+    schemas.set("library_species", objects(written))
+        .set("library_list", objects({{"species", list_of(objects(species_members()))},
                                       {"next", nullable("string")}}))
         .set("library_quota", objects({{"owner", text},
                                        {"scope", text},
@@ -327,8 +315,8 @@ void add_library_schemas(Value& schemas, const Atlas&) {
                                         {"updated_s", time_of("When it last changed")},
                                         {"versions", list_of(version)},
                                         {"images", list_of(image)}}))
-        .set("library_shares", objects({{"shares", list_of(of_object(share))}}))
-        .set("library_share", of_object(new_share));
+        .set("library_shares", objects({{"shares", list_of(objects(share))}}))
+        .set("library_share", objects(new_share));
 }
 
 void add_library_bodies(Value& bodies, const Atlas&) {
@@ -368,8 +356,8 @@ void add_token_schemas(Value& schemas, const Atlas&) {
     Value::Object made = members;
     made.emplace_back("token",
                       object({{"type", "string"}, {"description", "The secret; shown once."}}));
-    schemas.set("token_list", objects({{"tokens", list_of(of_object(members))}}))
-        .set("token", of_object(made));
+    schemas.set("token_list", objects({{"tokens", list_of(objects(members))}}))
+        .set("token", objects(made));
 }
 
 void add_token_bodies(Value& bodies, const Atlas&) {
