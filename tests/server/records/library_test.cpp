@@ -2,7 +2,6 @@
 #include "api/library/library.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -16,6 +15,7 @@
 #include "core/params/reader.h"
 #include "server/records/administration.h"
 #include "server/records/sqlite.h"
+#include "tests/server/records/contract.h"
 
 namespace sporeprint::server::records_library_test {
 namespace {
@@ -25,9 +25,6 @@ using namespace api;
 class LibraryRoutes : public testing::Test {
   protected:
     void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "library-XXXXXX").string();
-        ASSERT_TRUE(mkdtemp(name.data()));
-        folder_ = name;
         open();
         for (const char* const owner : {"kaja", "sami"}) {
             ASSERT_TRUE(library_->records().add_owner(owner, now_));
@@ -35,7 +32,6 @@ class LibraryRoutes : public testing::Test {
                 tokens_[std::string(owner) + ' ' + api::name(scope)] = token(owner, scope);
         }
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
 
     void open() {
         service_.reset();
@@ -109,7 +105,7 @@ class LibraryRoutes : public testing::Test {
     }
 
     Seconds now_ = 1'800'000'000;
-    std::filesystem::path folder_;
+    test::TemporaryFolder folder_;
     std::shared_ptr<Library> library_;
     std::optional<Service> service_;
     std::map<std::string, std::string> tokens_;

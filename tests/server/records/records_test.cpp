@@ -8,14 +8,12 @@
 
 #include <atomic>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <random>
 #include <set>
 #include <thread>
 
-#include "core/params/types.h"
+#include "api/library/tokens.h"
 #include "server/records/sqlite.h"
 #include "tests/server/records/contract.h"
 
@@ -25,45 +23,21 @@ namespace {
 using namespace api;
 using namespace test;
 
-Digest digest_of(std::string_view text) {
-    const std::string hex = sha256_hex(text.data(), text.size());
-    Digest digest{};
-    for (std::size_t i = 0; i < digest.size(); ++i)
-        digest.at(i) = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
-    return digest;
-}
-
 Blob blob(const std::string& place, const std::string& bytes) {
-    return {place, "image/jpeg", digest_of(bytes), {bytes.begin(), bytes.end()}};
+    return {place, "image/jpeg", sha256_of(bytes), {bytes.begin(), bytes.end()}};
 }
 
 Content content(const std::string& text, std::vector<Blob> blobs = {}) {
-    return {text, digest_of(text), 1, "capped", "Title of " + text, std::move(blobs)};
+    return {text, sha256_of(text), 1, "capped", "Title of " + text, std::move(blobs)};
 }
 
 class SqliteBackend final : public Backend {
   public:
-    SqliteBackend() {
-        std::string name = (std::filesystem::temp_directory_path() / "records-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw std::runtime_error("no folder for a test");
-        folder_ = name;
-    }
-    ~SqliteBackend() override { std::filesystem::remove_all(folder_); }
-    SqliteBackend(const SqliteBackend&) = delete;
-    SqliteBackend& operator=(const SqliteBackend&) = delete;
-
     std::unique_ptr<Records> open() override { return open_sqlite_records(folder_ / "test.db"); }
-    std::string bytes_on_disk() override {
-        std::string bytes;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-            std::ifstream file(entry.path(), std::ios::binary);
-            bytes.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-        }
-        return bytes;
-    }
+    std::string bytes_on_disk() override { return folder_.bytes(); }
 
   private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
 };
 
 std::unique_ptr<Backend> sqlite() { return std::make_unique<SqliteBackend>(); }
@@ -86,7 +60,7 @@ class RecordsContract : public testing::TestWithParam<NamedBackend> {
         std::map<Digest, std::size_t> blobs;
         Listing listing;
         listing.reader = listing.owner = owner;
-        listing.limit = 1000;
+        listing.limit = 1'000'000;
         for (const StoredDocument& document : records_->list(listing))
             for (int number = 0; number <= document.newest; ++number) {
                 const Version version =
@@ -119,7 +93,7 @@ TEST_P(RecordsContract, TokensAreFoundRevokedAndBounded) {
     Token token;
     token.id = "abcdefgh";
     token.owner = "kaja";
-    token.secret = digest_of("secret");
+    token.secret = sha256_of("secret");
     token.label = "laptop";
     token.scope = Scope::write;
     token.created = 50;
@@ -196,13 +170,13 @@ TEST_P(RecordsContract, ADraftIsReadAsItWasWritten) {
 TEST_P(RecordsContract, OfTwoWritersOneIsStale) {
     records_->create("kaja", "bolete", content("first"), "", "", 1);
     const std::unique_ptr<Records> other = backend_->open();
-    const std::optional<Digest> seen = digest_of("first");
+    const std::optional<Digest> seen = sha256_of("first");
     const Written one = records_->replace("kaja", "bolete", seen, content("second"), 2);
     EXPECT_EQ(one.result, WriteResult::done);
     EXPECT_EQ(one.revision, 2);
     const Written two = other->replace("kaja", "bolete", seen, content("third"), 3);
     EXPECT_EQ(two.result, WriteResult::stale);
-    EXPECT_EQ(two.current, digest_of("second"));
+    EXPECT_EQ(two.current, sha256_of("second"));
     EXPECT_EQ(records_->version("kaja", "bolete", 0)->content.text, "second");
     EXPECT_EQ(other->publish("kaja", "bolete", seen, "", 4).result, WriteResult::stale);
     EXPECT_EQ(other->withdraw("kaja", "bolete", seen, true, 4).result, WriteResult::stale);
@@ -216,25 +190,25 @@ TEST_P(RecordsContract, OfTwoWritersOneIsStale) {
 TEST_P(RecordsContract, APublishedVersionNeverChanges) {
     records_->create("kaja", "bolete", content("first", {blob("/a", "pixels")}), "", "", 1);
     const Written published =
-        records_->publish("kaja", "bolete", digest_of("first"), "the first", 2);
+        records_->publish("kaja", "bolete", sha256_of("first"), "the first", 2);
     EXPECT_EQ(published.result, WriteResult::done);
     EXPECT_EQ(published.number, 1);
     for (int i = 2; i <= most_versions; ++i) {
         const std::string text = "version " + std::to_string(i);
         ASSERT_EQ(records_->replace("kaja", "bolete", std::nullopt, content(text), i).result,
                   WriteResult::done);
-        ASSERT_EQ(records_->publish("kaja", "bolete", digest_of(text), "", i).number, i);
+        ASSERT_EQ(records_->publish("kaja", "bolete", sha256_of(text), "", i).number, i);
     }
     EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, "", 99).result,
               WriteResult::too_many);
     records_ = backend_->open();
     const Version first = records_->version("kaja", "bolete", 1).value();
     EXPECT_EQ(first.content.text, "first");
-    EXPECT_EQ(first.content.hash, digest_of("first"));
+    EXPECT_EQ(first.content.hash, sha256_of("first"));
     EXPECT_EQ(first.note, "the first");
     EXPECT_EQ(first.made, 2);
     ASSERT_EQ(first.content.blobs.size(), 1U) << "the draft has no blob any more, the version has";
-    EXPECT_EQ(first.content.blobs[0].sha256, digest_of("pixels"));
+    EXPECT_EQ(first.content.blobs[0].sha256, sha256_of("pixels"));
     EXPECT_EQ(records_->version("kaja", "bolete", 7)->content.text, "version 7");
     EXPECT_EQ(used("kaja"), counted("kaja"));
 }
@@ -337,7 +311,7 @@ TEST_P(RecordsContract, ChangesTellOthersWhatIsPublished) {
     EXPECT_EQ(changes[0].name, "bolete");
     ASSERT_EQ(changes[0].versions.size(), 1U);
     EXPECT_EQ(changes[0].versions[0].first, 1);
-    EXPECT_EQ(changes[0].versions[0].second, digest_of("first"));
+    EXPECT_EQ(changes[0].versions[0].second, sha256_of("first"));
     EXPECT_LT(changes[0].serial, changes[1].serial);
     const std::int64_t seen = changes.back().serial;
     EXPECT_TRUE(other->changes(seen).empty());
@@ -350,7 +324,7 @@ TEST_P(RecordsContract, ChangesTellOthersWhatIsPublished) {
 
 TEST_P(RecordsContract, SharesAreBoundedAndRevoked) {
     records_->create("kaja", "bolete", content("first"), "", "", 1);
-    Share share{"share000", digest_of("key"), 10, 100, false};
+    Share share{"share000", sha256_of("key"), 10, 100, false};
     for (int i = 0; i < most_shares; ++i) {
         share.id = "share" + std::to_string(100 + i);
         EXPECT_EQ(records_->add_share("kaja", "bolete", share), WriteResult::done);
@@ -366,7 +340,7 @@ TEST_P(RecordsContract, SharesAreBoundedAndRevoked) {
     const std::vector<Share> shares = records_->shares("kaja", "bolete");
     ASSERT_EQ(shares.size(), static_cast<std::size_t>(most_shares) + 1);
     EXPECT_TRUE(shares.front().is_revoked);
-    EXPECT_EQ(shares.front().secret, digest_of("key"));
+    EXPECT_EQ(shares.front().secret, sha256_of("key"));
     EXPECT_EQ(shares.front().expires, 100);
     EXPECT_EQ(records_->add_share("kaja", "nothing", share), WriteResult::missing);
     for (int i = 0; i < 300; ++i) {  // what is revoked does not pile up
@@ -520,7 +494,7 @@ TEST_P(RecordsContract, WhatIsAcknowledgedSurvivesTheEndOfTheProcess) {
         const std::optional<Version> found =
             records_->version("kaja", "document" + std::to_string(number), 0);
         ASSERT_TRUE(found) << number;
-        EXPECT_EQ(found->content.hash, digest_of(found->content.text));
+        EXPECT_EQ(found->content.hash, sha256_of(found->content.text));
     }
     EXPECT_GE(acknowledged.size(), 40U);
     EXPECT_EQ(used("kaja"), counted("kaja"));

@@ -2,12 +2,12 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "api/http/errors.h"
+#include "tests/server/records/contract.h"
 
 namespace sporeprint::server::records_sqlite_test {
 namespace {
@@ -16,15 +16,8 @@ using namespace api;
 
 class SqliteFile : public testing::Test {
   protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "sqlite-XXXXXX").string();
-        ASSERT_TRUE(mkdtemp(name.data()));
-        folder_ = name;
-        file_ = folder_ / "library.db";
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
-    std::filesystem::path folder_, file_;
+    test::TemporaryFolder folder_;
+    std::filesystem::path file_ = folder_ / "library.db";
 };
 
 std::string reason_of(const std::filesystem::path& file) {
@@ -49,7 +42,7 @@ TEST_F(SqliteFile, OtherFilesAreRefused) {
     std::ofstream(file_)
         << "This is a text, long enough not to be taken for an empty database file.";
     EXPECT_NE(reason_of(file_), "");
-    EXPECT_NE(reason_of(folder_ / "none" / "library.db").find("its folder does not exist"),
+    EXPECT_NE(reason_of(folder_ / "none/library.db").find("its folder does not exist"),
               std::string::npos);
 }
 
@@ -81,14 +74,7 @@ TEST_F(SqliteFile, APurgeThatAReaderHoldsUpIsFinishedLater) {
     records->add_owner("kaja", 1);
     const std::string marker = "a text that must not be found again 51d0";
     records->create("kaja", "bolete", {marker, {}, 1, "", "", {}}, "", "", 1);
-    const auto has_marker = [&] {
-        std::string bytes;
-        for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-            std::ifstream file(entry.path(), std::ios::binary);
-            bytes.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-        }
-        return bytes.find(marker) != std::string::npos;
-    };
+    const auto has_marker = [&] { return folder_.bytes().find(marker) != std::string::npos; };
     {
         SQLite::Database reader(file_.string());
         reader.exec("BEGIN");
