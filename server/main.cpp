@@ -388,7 +388,7 @@ struct CommandLine {
 /// Adds `library owner add NAME` and related commands. They end the program.
 void add_library_commands(CLI::App& app, LibraryCommand& command) {
     CLI::App* const library =
-        app.add_subcommand("library", "Owners, tokens and backup of --library, and end");
+        app.add_subcommand("library", "Owners, tokens, backup and copies of --library, and end");
     library->require_subcommand(1);
     // Options of the program, such as --library itself, may follow.
     library->fallthrough();
@@ -416,6 +416,9 @@ void add_library_commands(CLI::App& app, LibraryCommand& command) {
     verb(library, "backup", "Copy the database, which may be in use, into a new file", "backup",
          false)
         ->add_option("FILE", command.file, "The new file")
+        ->required();
+    verb(library, "copy", "Copy everything into another database, which is empty", "copy", false)
+        ->add_option("TO", command.to, "A file, or postgres://user@host/database")
         ->required();
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -151,6 +152,7 @@ struct Listing {
     std::string part;    ///< of the name or the title, in any case; empty for all
     std::string reader;  ///< whose drafts and unlisted documents are listed too; empty for nobody
     std::optional<DocumentState> state;  ///< nothing for all that the reader may see
+    bool has_purged = false;             ///< whether purged documents of the reader are listed too
     std::string after_owner,
         after_name;  ///< the last one of the page before; empty for the first page
     int limit = 50;
@@ -206,7 +208,7 @@ class Records {
                             const std::optional<Digest>& expected, std::string_view note,
                             Seconds now) = 0;
     /// Creates a document with all its versions at once, each with the number that it has; the draft is 0 and
-    /// comes first: done, missing (owner), taken, too_many, too_large.
+    /// comes first: done, missing (owner), taken, too_many, too_large. A purged document has no versions.
     virtual Written restore(const StoredDocument& document,
                             const std::vector<Version>& versions) = 0;
     /// Takes a document out of lists, or deletes all its bytes: done, missing, stale, purged.
@@ -219,10 +221,13 @@ class Records {
     /// Returns a version with its blobs; number 0 is the draft.
     [[nodiscard]] virtual std::optional<Version> version(std::string_view owner,
                                                          std::string_view name, int number) = 0;
-    /// Returns the documents of a list, by owner and name; purged ones are in none.
+    /// Returns the documents of a list, by owner and name.
     [[nodiscard]] virtual std::vector<StoredDocument> list(const Listing& listing) = 0;
     /// Returns all documents that have changed since a serial number, by serial number.
     [[nodiscard]] virtual std::vector<Change> changes(std::int64_t since) = 0;
+    /// Returns when another process may have changed something, after a time, or when it is stopped. A database
+    /// that cannot tell, or cannot be used, lets the time pass. Called on one thread at a time.
+    virtual void wait_for_change(const std::stop_token& stop, std::int64_t at_most_ms) = 0;
 
     // --- Shares ---
 

@@ -109,11 +109,9 @@ struct Options {
                                  .doc = "Room for the files of that folder."});
         visit(
             &O::library,
-            Info{
-                .name = "library",
-                .doc =
-                    "Database of what users store, a file of SQLite; none by itself. Made if it is "
-                    "missing."});
+            Info{.name = "library",
+                 .doc = "Database of what users store: a file of SQLite, made if it is missing, or "
+                        "postgres://user@host/database; none by itself."});
         visit(&O::sign_keys,
               Info{.name = "sign_keys",
                    .doc = "File of keys, \"ID HEX\" a line, of which addresses of what is made "

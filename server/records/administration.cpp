@@ -6,6 +6,7 @@
 #include "api/library/tokens.h"
 #include "core/params/messages.h"
 #include "core/problems.h"
+#include "server/records/copy.h"
 #include "server/records/open.h"
 #include "server/records/sqlite.h"
 
@@ -45,18 +46,28 @@ std::string new_admin_token(api::Records& records, const std::string& owner,
 }
 
 std::optional<std::string> first_token(api::Records& records, api::Seconds now) {
-    if (!records.owners().empty()) return std::nullopt;
-    records.add_owner(first_owner, now);
+    // Of several replicas that start at once, one adds the owner.
+    if (!records.owners().empty() || !records.add_owner(first_owner, now)) return std::nullopt;
     return new_admin_token(records, first_owner, "first start", now);
 }
 
 std::string administer(const LibraryCommand& command, const std::string& library,
                        api::Seconds now) {
     if (command.verb == "backup") {
+        if (is_postgres_address(library))
+            throw InvalidInput("--library",
+                               "backup copies a file; a database of PostgreSQL is backed up by "
+                               "pg_dump --schema=sporeprint");
         back_up_sqlite_records(library, command.file);
         return "Copied to " + command.file + '\n';
     }
     const std::unique_ptr<api::Records> records = open_records(library);
+    if (command.verb == "copy") {
+        const Copied copied = copy_records(*records, *open_records(command.to), now);
+        return "Copied " + std::to_string(copied.owners) + " owners, " +
+               std::to_string(copied.documents) + " documents and " +
+               std::to_string(copied.versions) + " versions, drafts included\n";
+    }
     const std::string& name = command.owner;
     if (command.verb == "owner-list") {
         std::string lines;

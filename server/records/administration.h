@@ -10,11 +10,12 @@ namespace sporeprint::server {
 
 /// The values of `sporeprint library ...`.
 struct LibraryCommand {
-    /// owner-add, owner-list, owner-limit, owner-disable, owner-enable, token or backup; empty for none.
+    /// owner-add, owner-list, owner-limit, owner-disable, owner-enable, token, backup or copy; empty for none.
     std::string verb;
     std::string owner;
     std::optional<std::int64_t> max_documents, max_bytes;
     std::string file;  ///< of a backup
+    std::string to;    ///< database of a copy, as --library names one
 };
 
 /// The first owner of an empty library, who works on the machine itself.
@@ -36,7 +37,7 @@ inline constexpr const char* first_owner = "me";
 ///
 /// library  that of --library
 /// returns  what is to be printed, whole lines
-/// throws   InvalidInput (path "NAME" or "FILE"); Unavailable
+/// throws   InvalidInput (path "NAME" or "TO"); Unavailable
 [[nodiscard]] std::string administer(const LibraryCommand& command, const std::string& library,
                                      api::Seconds now);
 

@@ -10,13 +10,12 @@ LibraryWatch::LibraryWatch(std::shared_ptr<api::Library> library, Log& log,
     : library_(std::move(library)),
       unreadable_(log,
                   "the library cannot be read; what was published before is served, and what "
-                  "others publish is "
-                  "not known until it can",
+                  "others publish is not known until it can",
                   std::chrono::minutes(1)),
       thread_([this, interval](const std::stop_token& stop) {
-          std::unique_lock lock(mutex_);
-          while (!woken_.wait_for(lock, stop, interval, [] { return false; }) &&
-                 !stop.stop_requested()) {
+          while (!stop.stop_requested()) {
+              library_->records().wait_for_change(stop, interval.count());
+              if (stop.stop_requested()) return;
               try {
                   library_->refresh();
               } catch (const std::exception& error) {

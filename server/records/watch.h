@@ -2,9 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <thread>
 
 #include "api/library/library.h"
@@ -12,8 +10,8 @@
 
 namespace sporeprint::server {
 
-/// Reads the changes of a library again and again, on a thread of its own, until it is destroyed. A database that
-/// cannot be read is logged; what was known before is served meanwhile.
+/// Reads the changes of a library whenever the database tells of one, and at least once per interval, on a thread of
+/// its own, until it is destroyed. A database that cannot be read is logged; what was known before is served meanwhile.
 class LibraryWatch {
   public:
     LibraryWatch(std::shared_ptr<api::Library> library, Log& log,
@@ -22,8 +20,6 @@ class LibraryWatch {
   private:
     std::shared_ptr<api::Library> library_;
     RepeatedWarning unreadable_;
-    std::mutex mutex_;
-    std::condition_variable_any woken_;
     std::jthread thread_;  ///< the last member: it ends before the others are destroyed
 };
 

@@ -11,8 +11,14 @@
 #include <system_error>
 
 #include "api/library/records.h"
+#include "server/records/open.h"
 
 namespace sporeprint::server::test {
+
+inline std::string text_of_file(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
 
 /// An empty folder for one test.
 class TemporaryFolder {
@@ -35,10 +41,8 @@ class TemporaryFolder {
     /// Returns the bytes of all files in it.
     [[nodiscard]] std::string bytes() const {
         std::string bytes;
-        for (const auto& entry : std::filesystem::directory_iterator(path_)) {
-            std::ifstream file(entry.path(), std::ios::binary);
-            bytes.append(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-        }
+        for (const auto& entry : std::filesystem::directory_iterator(path_))
+            bytes += text_of_file(entry.path());
         return bytes;
     }
 
@@ -54,14 +58,17 @@ class Backend {
     Backend& operator=(const Backend&) = delete;
     virtual ~Backend() = default;
 
+    /// Returns what --library says for it.
+    [[nodiscard]] virtual std::string library() const = 0;
     /// Opens the database once more, as another process would.
-    [[nodiscard]] virtual std::unique_ptr<api::Records> open() = 0;
-    /// Returns all bytes that the database has on the disk.
-    [[nodiscard]] virtual std::string bytes_on_disk() = 0;
+    [[nodiscard]] std::unique_ptr<api::Records> open() const { return open_records(library()); }
+    /// Returns whether the database contains these bytes anywhere.
+    [[nodiscard]] virtual bool contains(const std::string& bytes) = 0;
 };
 
 struct NamedBackend {
     const char* name;
+    bool (*is_installed)();
     std::unique_ptr<Backend> (*make)();
 };
 

@@ -14,17 +14,18 @@
 #include "core/atlas/atlas.h"
 #include "core/params/reader.h"
 #include "server/records/administration.h"
-#include "server/records/sqlite.h"
-#include "tests/server/records/contract.h"
+#include "tests/server/records/backends.h"
 
 namespace sporeprint::server::records_library_test {
 namespace {
 
 using namespace api;
 
-class LibraryRoutes : public testing::Test {
+class LibraryRoutes : public testing::TestWithParam<test::NamedBackend> {
   protected:
     void SetUp() override {
+        ASSERT_TRUE(GetParam().is_installed()) << "server/install test installs it";
+        backend_ = GetParam().make();
         open();
         for (const char* const owner : {"kaja", "sami"}) {
             ASSERT_TRUE(library_->records().add_owner(owner, now_));
@@ -35,8 +36,7 @@ class LibraryRoutes : public testing::Test {
 
     void open() {
         service_.reset();
-        library_ = std::make_shared<Library>(open_sqlite_records(folder_ / "library.db"),
-                                             [this] { return now_; });
+        library_ = std::make_shared<Library>(backend_->open(), [this] { return now_; });
         service_.emplace(built_in_atlas(), ServiceOptions{}, library_);
     }
 
@@ -105,13 +105,13 @@ class LibraryRoutes : public testing::Test {
     }
 
     Seconds now_ = 1'800'000'000;
-    test::TemporaryFolder folder_;
+    std::unique_ptr<test::Backend> backend_;
     std::shared_ptr<Library> library_;
     std::optional<Service> service_;
     std::map<std::string, std::string> tokens_;
 };
 
-TEST_F(LibraryRoutes, ADraftBecomesAVersionThatGrows) {
+TEST_P(LibraryRoutes, ADraftBecomesAVersionThatGrows) {
     const Response created = as_kaja("POST", "/v1/library", species_json("red_bolete"));
     ASSERT_EQ(created.status, 201) << text_of(created);
     EXPECT_EQ(header_of(created, "Location"), "/v1/library/~kaja.red_bolete");
@@ -140,7 +140,7 @@ TEST_F(LibraryRoutes, ADraftBecomesAVersionThatGrows) {
     EXPECT_FALSE(glb.cacheable) << "its owner may withdraw it";
 }
 
-TEST_F(LibraryRoutes, WithoutANumberTheNewestVersionIsMeant) {
+TEST_P(LibraryRoutes, WithoutANumberTheNewestVersionIsMeant) {
     publish("red_bolete");
     const std::string open = "/v1/mushrooms/~kaja.red_bolete.json?age=0.5";
     const Response first = ask("GET", open);
@@ -163,7 +163,7 @@ TEST_F(LibraryRoutes, WithoutANumberTheNewestVersionIsMeant) {
     EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.red_bolete@3.json").status, 404);
 }
 
-TEST_F(LibraryRoutes, PublishedSpeciesMixMorphAndFormColonies) {
+TEST_P(LibraryRoutes, PublishedSpeciesMixMorphAndFormColonies) {
     publish("red_bolete");
     for (const char* const target :
          {"/v1/mushrooms/~kaja.red_bolete@1:0.5,amanita_muscaria:0.5.glb?lod=3&textures=none",
@@ -185,7 +185,7 @@ TEST_F(LibraryRoutes, PublishedSpeciesMixMorphAndFormColonies) {
     EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.red_bolete@1:1,~kaja.red_bolete:1.json").status, 400);
 }
 
-TEST_F(LibraryRoutes, AVersionHasItsBytesAfterARestart) {
+TEST_P(LibraryRoutes, AVersionHasItsBytesAfterARestart) {
     publish("red_bolete");
     const std::string target = "/v1/mushrooms/~kaja.red_bolete@1.glb?lod=2&textures=none";
     const std::string before = text_of(ask("GET", target));
@@ -199,7 +199,7 @@ TEST_F(LibraryRoutes, AVersionHasItsBytesAfterARestart) {
     EXPECT_EQ(handle(*service_, conditional).status, 304);
 }
 
-TEST_F(LibraryRoutes, WhatIsUnknownIsNamed) {
+TEST_P(LibraryRoutes, WhatIsUnknownIsNamed) {
     publish("red_bolete");
     EXPECT_NE(detail_of(ask("GET", "/v1/mushrooms/~kaja.nothing.glb")).find("'~kaja.nothing'"),
               std::string::npos);
@@ -216,7 +216,7 @@ TEST_F(LibraryRoutes, WhatIsUnknownIsNamed) {
     }
 }
 
-TEST_F(LibraryRoutes, ADraftIsChangedOnlyAfterItWasRead) {
+TEST_P(LibraryRoutes, ADraftIsChangedOnlyAfterItWasRead) {
     const std::string path = "/v1/library/~kaja.red_bolete";
     as_kaja("POST", "/v1/library", species_json("red_bolete"));
     const std::string seen(header_of(as_kaja("GET", path), "ETag"));
@@ -239,7 +239,7 @@ TEST_F(LibraryRoutes, ADraftIsChangedOnlyAfterItWasRead) {
     EXPECT_EQ(as_kaja("PUT", path, species_json("other_name"), "*").status, 400) << "another id";
 }
 
-TEST_F(LibraryRoutes, WithdrawnSpeciesAreUnlistedOrGone) {
+TEST_P(LibraryRoutes, WithdrawnSpeciesAreUnlistedOrGone) {
     publish("red_bolete");
     publish("pale_bolete");
     const std::string path = "/v1/library/~kaja.red_bolete";
@@ -262,7 +262,7 @@ TEST_F(LibraryRoutes, WithdrawnSpeciesAreUnlistedOrGone) {
     EXPECT_EQ(as_kaja("PUT", path, species_json("red_bolete"), "*").status, 410);
 }
 
-TEST_F(LibraryRoutes, OfWhatWasNeverPublishedNobodyElseKnows) {
+TEST_P(LibraryRoutes, OfWhatWasNeverPublishedNobodyElseKnows) {
     const std::string path = "/v1/library/~kaja.secret";
     as_kaja("POST", "/v1/library", species_json("secret"));
     EXPECT_EQ(as_kaja("DELETE", path, "", "*").status, 204);
@@ -279,7 +279,7 @@ TEST_F(LibraryRoutes, OfWhatWasNeverPublishedNobodyElseKnows) {
     EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.secret.glb").status, 404);
 }
 
-TEST_F(LibraryRoutes, ImagesThatAreNoneAreNotPublished) {
+TEST_P(LibraryRoutes, ImagesThatAreNoneAreNotPublished) {
     Value json = write(built_in_atlas()->find("boletus_edulis")->species);
     json.set("id", "no_image");
     const std::string text = "this is no image";
@@ -290,8 +290,8 @@ TEST_F(LibraryRoutes, ImagesThatAreNoneAreNotPublished) {
     EXPECT_EQ(refused.status, 422) << text_of(refused);
 }
 
-TEST_F(LibraryRoutes, AnotherProcessLearnsOfWhatIsPublished) {
-    Library other(open_sqlite_records(folder_ / "library.db"), [this] { return now_; });
+TEST_P(LibraryRoutes, AnotherProcessLearnsOfWhatIsPublished) {
+    Library other(backend_->open(), [this] { return now_; });
     publish("red_bolete");
     EXPECT_EQ(other.find("~kaja.red_bolete").status, 404);
     EXPECT_TRUE(other.refresh());
@@ -302,7 +302,7 @@ TEST_F(LibraryRoutes, AnotherProcessLearnsOfWhatIsPublished) {
     EXPECT_EQ(other.find("~kaja.red_bolete@1").status, 410);
 }
 
-TEST_F(LibraryRoutes, WhatCannotBeGrownIsNotPublished) {
+TEST_P(LibraryRoutes, WhatCannotBeGrownIsNotPublished) {
     Value json = write(built_in_atlas()->find("boletus_edulis")->species);
     json.set("id", "knot");
     // The cap of one stage crosses itself.
@@ -318,7 +318,7 @@ TEST_F(LibraryRoutes, WhatCannotBeGrownIsNotPublished) {
     EXPECT_EQ(library_->find("~kaja.knot").status, 404);
 }
 
-TEST_F(LibraryRoutes, ForksHaveTheirParent) {
+TEST_P(LibraryRoutes, ForksHaveTheirParent) {
     publish("red_bolete");
     const std::string sami = tokens_.at("sami write");
     const Response forked =
@@ -339,7 +339,7 @@ TEST_F(LibraryRoutes, ForksHaveTheirParent) {
               404);
 }
 
-TEST_F(LibraryRoutes, ListsArePagedAndFiltered) {
+TEST_P(LibraryRoutes, ListsArePagedAndFiltered) {
     for (const char* const name : {"alpha", "beta", "gamma"}) publish(name);
     as_kaja("POST", "/v1/library", species_json("draft_only"));
     const auto ids = [&](const std::string& query, const std::string& token = "") {
@@ -368,7 +368,7 @@ TEST_F(LibraryRoutes, ListsArePagedAndFiltered) {
     EXPECT_EQ(ask("GET", "/v1/library?mne=true").status, 400);
 }
 
-TEST_F(LibraryRoutes, AnExportIsImportedByteForByte) {
+TEST_P(LibraryRoutes, AnExportIsImportedByteForByte) {
     publish("red_bolete");
     as_kaja("PUT", "/v1/library/~kaja.red_bolete",
             species_json("red_bolete", "amanita_muscaria", "Second"), "*");
@@ -395,7 +395,7 @@ TEST_F(LibraryRoutes, AnExportIsImportedByteForByte) {
     EXPECT_EQ(ask("POST", "/v1/library/import", sami, file).status, 409);
 }
 
-TEST_F(LibraryRoutes, ADamagedExportIsNamedAndNothingIsWritten) {
+TEST_P(LibraryRoutes, ADamagedExportIsNamedAndNothingIsWritten) {
     publish("red_bolete");
     const Value good = json_of(as_kaja("GET", "/v1/library/~kaja.red_bolete/export.json"));
     const auto refused = [&](const char* parameter, auto change) {
@@ -444,7 +444,7 @@ TEST_F(LibraryRoutes, ADamagedExportIsNamedAndNothingIsWritten) {
     });
 }
 
-TEST_F(LibraryRoutes, SharesShowADraftUntilTheyEnd) {
+TEST_P(LibraryRoutes, SharesShowADraftUntilTheyEnd) {
     as_kaja("POST", "/v1/library", species_json("red_bolete"));
     const std::string path = "/v1/library/~kaja.red_bolete";
     const Response made = as_kaja("POST", path + "/shares", R"({"expires_s":3600})");
@@ -471,7 +471,7 @@ TEST_F(LibraryRoutes, SharesShowADraftUntilTheyEnd) {
     EXPECT_EQ(as_kaja("POST", path + "/shares", R"({"expires_s":31536001})").status, 400);
 }
 
-TEST_F(LibraryRoutes, TokensAreMadeAndRevokedByTokens) {
+TEST_P(LibraryRoutes, TokensAreMadeAndRevokedByTokens) {
     const std::string admin = tokens_.at("kaja admin");
     const Response made =
         ask("POST", "/v1/tokens", admin, R"({"label":"build","scope":"read","expires_s":3600})");
@@ -495,7 +495,7 @@ TEST_F(LibraryRoutes, TokensAreMadeAndRevokedByTokens) {
     EXPECT_EQ(ask("POST", "/v1/tokens", admin, R"({"scope":"root"})").status, 400);
 }
 
-TEST_F(LibraryRoutes, QuotasAreNamed) {
+TEST_P(LibraryRoutes, QuotasAreNamed) {
     library_->records().set_limits("kaja", 1, 1 << 20);
     ASSERT_EQ(as_kaja("POST", "/v1/library", species_json("one")).status, 201);
     const Response full = as_kaja("POST", "/v1/library", species_json("two"));
@@ -517,7 +517,7 @@ std::string path_of(std::string pattern) {
     return pattern;
 }
 
-TEST_F(LibraryRoutes, EveryRouteAsksForItsToken) {
+TEST_P(LibraryRoutes, EveryRouteAsksForItsToken) {
     publish("red_bolete");
     const std::string expired = token("kaja", Scope::admin, now_ - 1),
                       revoked = token("kaja", Scope::admin), disabled = token("sami", Scope::admin);
@@ -570,7 +570,7 @@ TEST_F(LibraryRoutes, EveryRouteAsksForItsToken) {
     EXPECT_EQ(ask("GET", "/v1/library/quota", disabled).status, 401);
 }
 
-TEST_F(LibraryRoutes, HostileBodiesAndNamesAreRefused) {
+TEST_P(LibraryRoutes, HostileBodiesAndNamesAreRefused) {
     for (const char* const body :
          {"", "{", "[]", "null", "{\"id\":\"x\"}", "{\"id\":7}", "\"text\""})
         EXPECT_EQ(as_kaja("POST", "/v1/library", body).status, 400) << body;
@@ -594,9 +594,9 @@ TEST_F(LibraryRoutes, HostileBodiesAndNamesAreRefused) {
         EXPECT_EQ(as_kaja("POST", "/v1/library/import", body).status, 400) << body;
 }
 
-TEST_F(LibraryRoutes, OperatorsAddAndLimitOwners) {
-    const std::string file = (folder_ / "library.db").string();
-    const auto run = [&](LibraryCommand command) { return administer(command, file, now_); };
+TEST_P(LibraryRoutes, OperatorsAddAndLimitOwners) {
+    const std::string database = backend_->library();
+    const auto run = [&](LibraryCommand command) { return administer(command, database, now_); };
     LibraryCommand command;
     command.verb = "owner-add";
     command.owner = "anna";
@@ -622,6 +622,9 @@ TEST_F(LibraryRoutes, OperatorsAddAndLimitOwners) {
     EXPECT_NE(run(command).find("kaja: 0 of 200 documents"), std::string::npos);
     EXPECT_FALSE(first_token(library_->records(), now_)) << "there are owners";
 }
+
+INSTANTIATE_TEST_SUITE_P(All, LibraryRoutes, testing::ValuesIn(test::backends),
+                         test::name_of_backend);
 
 }  // namespace
 }  // namespace sporeprint::server::records_library_test
