@@ -68,7 +68,8 @@ Value query_parameter(std::string_view key, bool is_required, std::string_view d
                    {"schema", std::move(schema)}});
 }
 
-Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
+Value parameters_of(const Route& route, const DocumentInputs& inputs) {
+    const Atlas& atlas = inputs.atlas;
     Value parameters = Value::array();
     const std::string_view pattern = route.pattern;
     const Value text = typed("string");
@@ -76,17 +77,23 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
     const auto has = [&](const char* capture) {
         return pattern.find(capture) != std::string_view::npos;
     };
+    const std::string of_library =
+        inputs.has_library ? " Of the library: ~owner.name@3, the newest version without a number, "
+                             "or ~owner.name@draft with a token or the key of a share."
+                           : "";
     if (has("{mix}"))
         parameters.push(path_parameter("mix",
                                        "A species id, or up to " + std::to_string(most_species) +
-                                           " with weights: id:0.7,id:0.3.",
+                                           " with weights: id:0.7,id:0.3." + of_library,
                                        text, example));
     if (has("{id}")) parameters.push(path_parameter("id", "A species id.", text, example));
     if (has("{preset}"))
         parameters.push(path_parameter("preset", "A preset's id.", text, route.example(atlas)));
     if (has("{a}")) {
-        parameters.push(path_parameter("a", "Id of the first species.", text, example));
-        parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
+        parameters.push(
+            path_parameter("a", "Id of the first species." + of_library, text, example));
+        parameters.push(
+            path_parameter("b", "Id of the second species." + of_library, text, other_id(atlas)));
     }
     if (has("{wood}")) {
         Value names = Value::array();
@@ -132,7 +139,7 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
             "Version token. Today's makes the answer immutable; any other is 410 with the "
             "canonical address of today's.",
             text));
-    if (is_signed && is_generated(route)) {
+    if (inputs.signed_urls && is_generated(route)) {
         parameters.push(
             query_parameter("key", true, "Id of the key that signed the address.", text));
         parameters.push(query_parameter("expires", false,
@@ -200,7 +207,7 @@ Value component_headers() {
 }
 
 /// Returns the statuses of the problems that a route can respond with.
-std::set<int> problems_of(const Route& route, bool is_signed) {
+std::set<int> problems_of(const Route& route, bool is_signed, bool has_library) {
     std::set<int> problems = {400, 405, 408, 414, 429, 431, 500, 503};  // of all routes
     switch (route.kind) {
         case RouteKind::health:
@@ -232,6 +239,7 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
         case RouteKind::product:
         case RouteKind::image:
             problems.insert({404, 410, 412, 422, 504});
+            if (has_library) problems.insert(401);
             if (!is_get(route)) problems.insert({411, 413, 415});
             break;
     }
@@ -324,6 +332,20 @@ std::string description(const Route& route, bool is_head, bool is_signed) {
     return text;
 }
 
+/// Returns the alternatives of what a request to a route has to carry; none if it needs nothing.
+Value security_of(const Route& route, const DocumentInputs& inputs) {
+    Value security = Value::array();
+    Value needed = Value::object();
+    if (inputs.signed_urls && is_generated(route)) needed.set("signature", Value::array());
+    // A token is needed for what is not public; of products, drafts.
+    const bool is_product = route.kind == RouteKind::product || route.kind == RouteKind::image;
+    const bool takes_token = route.access != Access::open || (inputs.has_library && is_product);
+    if (takes_token ? route.access != Access::required : !needed.members().empty())
+        security.push(needed);
+    if (takes_token) security.push(std::move(needed.set("token", Value::array())));
+    return security;
+}
+
 /// Returns the operation of a route; for GET also that of HEAD.
 Value operation(const RouteGroup& group, const Route& route, const DocumentInputs& inputs,
                 bool is_head) {
@@ -332,18 +354,11 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
                         {"summary", route.summary},
                         {"description", description(route, is_head, is_signed)},
                         {"tags", Value(Value::Array{tag_of(group, route)})}});
-    Value parameters = parameters_of(route, inputs.atlas, is_signed);
+    Value parameters = parameters_of(route, inputs);
     if (!parameters.items().empty()) out.set("parameters", std::move(parameters));
     if (*route.body_type) out.set("requestBody", request_body(route));
-    if (is_signed && is_generated(route))
-        out.set("security", Value(Value::Array{object({{"signature", Value::array()}})}));
-
-    if (route.access != Access::open) {
-        Value security = Value::array();
-        if (route.access == Access::chosen) security.push(Value::object());
-        security.push(object({{"token", Value::array()}}));
-        out.set("security", std::move(security));
-    }
+    Value security = security_of(route, inputs);
+    if (!security.items().empty()) out.set("security", std::move(security));
 
     Value responses = Value::object();
     Value success =
@@ -357,7 +372,7 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
         responses.set("206", std::move(part));
     }
     responses.set(std::to_string(route.success), std::move(success));
-    std::set<int> problems = problems_of(route, is_signed);
+    std::set<int> problems = problems_of(route, is_signed, inputs.has_library);
     if (is_get(route) && route.kind != RouteKind::health && route.kind != RouteKind::upload &&
         (route.kind != RouteKind::record || route.has_etag))
         responses.set("304", reference("responses/not-modified"));
@@ -447,7 +462,8 @@ Value token_scheme() {
          {"scheme", "bearer"},
          {"description",
           "A token of an owner of species, spk_ and 52 characters. Whoever runs the service "
-          "gives out the first one."}});
+          "gives out the first one. For a draft named ~owner.name@draft also the key of a "
+          "share."}});
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "api/http/text.h"
 #include "api/products/context.h"
 #include "api/products/library_access.h"
+#include "api/products/library_drafts.h"
 #include "api/routes.h"
 #include "api/static_documents.h"
 #include "core/grow/mushroom.h"
@@ -160,6 +161,11 @@ Plan plan_with_library(Context& context, const Request& request, const RoutedReq
                        : plan_route(context, request, routed);
         } catch (const SpeciesOfLibrary& wanted) {
             if (!context.library) return context.responses.problem(request, 404, no_library);
+            if (has_draft(wanted.ids()))
+                return plan_with_drafts(context, request, wanted.ids(),
+                                        [request, routed](Context& with_drafts) {
+                                            return plan_route(with_drafts, request, routed);
+                                        });
             ToBeLoaded missing;
             for (const std::string& id : wanted.ids()) {
                 Library::Found found = context.library->find(id);

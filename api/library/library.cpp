@@ -56,6 +56,11 @@ Library::Found Library::find(std::string_view id) {
         return found;
     }
     found.name = *name;
+    if (name->is_draft) {
+        found.status = 404;
+        found.message = in_quotes(id) + " is a draft; only what is published can be named here";
+        return found;
+    }
     const std::string document = text_of({name->owner, name->name});
     {
         const std::shared_lock lock(mutex_);

@@ -35,6 +35,8 @@ std::optional<LibraryName> read_library_name(std::string_view text) {
     if (!is_owner_name(name.owner) || !is_species_name(name.name)) return std::nullopt;
     if (at == std::string_view::npos) return name;
     const std::string_view digits = text.substr(at + 1);
+    name.is_draft = digits == "draft";
+    if (name.is_draft) return name;
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), name.number);
     if (error != std::errc() || end != digits.data() + digits.size() || digits.front() == '0' ||
@@ -46,6 +48,7 @@ std::optional<LibraryName> read_library_name(std::string_view text) {
 std::string text_of(const LibraryName& name) {
     std::string text = '~' + name.owner + '.' + name.name;
     if (name.number > 0) (text += '@') += std::to_string(name.number);
+    if (name.is_draft) text += "@draft";
     return text;
 }
 

@@ -10,13 +10,14 @@
 
 namespace sporeprint::api {
 
-/// Longest names; with '~', '.', '@' and two digits they are ids of 48 characters at most.
+/// Longest names; with '~', '.' and "@draft" they are ids of 48 characters at most.
 inline constexpr std::size_t longest_owner = 16, longest_name = 24;
 
 /// The name of a species in the library, or of one of its versions.
 struct LibraryName {
     std::string owner, name;
-    int number = 0;  ///< of a published version; 0 for none
+    int number = 0;         ///< of a published version; 0 for none
+    bool is_draft = false;  ///< "@draft"
 
     bool operator==(const LibraryName&) const = default;
 };
@@ -35,10 +36,10 @@ inline constexpr const char* name_grammar = "1 to 24 characters a-z, 0-9 and _, 
 /// Returns true if an id is meant to be that of a species in the library: it begins with '~'.
 [[nodiscard]] constexpr bool is_of_library(std::string_view id) { return id.starts_with('~'); }
 
-/// Reads "~owner.name" or "~owner.name@3". Returns nothing for any other text.
+/// Reads "~owner.name", "~owner.name@3" or "~owner.name@draft". Returns nothing for any other text.
 [[nodiscard]] std::optional<LibraryName> read_library_name(std::string_view text);
 
-/// Returns "~owner.name", and "@3" after it for a version.
+/// Returns "~owner.name", and "@3" or "@draft" after it for a version.
 [[nodiscard]] std::string text_of(const LibraryName& name);
 
 /// Returns what is said of a species that its owner has purged.

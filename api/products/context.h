@@ -31,6 +31,7 @@ struct Context {
     std::shared_ptr<Library> library;  ///< nullptr if the service has none
     bool has_guests =
         false;  ///< `atlas` has species of the library, which their owners may withdraw
+    bool has_drafts = false;  ///< among them drafts, which only some may see
 };
 
 /// A request with its route.

@@ -10,24 +10,15 @@
 
 namespace sporeprint::api {
 
-namespace {
-
-/// Finds out who sends a request. An unknown id takes as long as a wrong secret.
-///
-/// returns  the caller, or the response that refuses the token
 std::variant<Caller, Response> authenticated(Library& library, const ResponseBuilder& responses,
                                              const Request& request, Access access, Scope scope) {
-    const std::string_view given = request.header("Authorization");
-    if (given.empty()) {
+    if (request.header("Authorization").empty()) {
         if (access != Access::required) return Caller{};
         return unauthorized(responses, request,
                             "a token is needed: send 'Authorization: Bearer spk_...'");
     }
-    constexpr std::string_view scheme = "Bearer ";
-    const bool is_bearer =
-        given.size() > scheme.size() && same_word(given.substr(0, scheme.size()), scheme);
-    const std::optional<Secret> secret =
-        is_bearer ? read_secret(token_prefix, trimmed(given.substr(scheme.size()))) : std::nullopt;
+    const std::optional<std::string_view> bearer = bearer_of(request);
+    const std::optional<Secret> secret = bearer ? read_secret(token_prefix, *bearer) : std::nullopt;
     if (!secret)
         return unauthorized(responses, request,
                             "the Authorization header is not 'Bearer' and a token, spk_ with 8 and "
@@ -59,7 +50,29 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
     return Caller{token->owner, token->scope, token->id};
 }
 
-}  // namespace
+std::optional<std::string_view> bearer_of(const Request& request) {
+    const std::string_view given = request.header("Authorization");
+    constexpr std::string_view scheme = "Bearer ";
+    if (given.size() <= scheme.size() || !same_word(given.substr(0, scheme.size()), scheme))
+        return std::nullopt;
+    return trimmed(given.substr(scheme.size()));
+}
+
+bool is_shared(Library& library, const LibraryName& name, std::string_view key) {
+    const std::optional<Secret> secret = read_secret(share_prefix, key);
+    if (!secret) return false;
+    const std::optional<Share> share = library.records().share(name.owner, name.name, secret->id);
+    return has_secret(share, *secret) && !share->is_revoked && share->expires > library.now();
+}
+
+std::string unseen_message(Library& library, const LibraryName& name) {
+    const std::string id = text_of({name.owner, name.name});
+    const Library::Found published = library.find(id);
+    return published.status == 200
+               ? "of " + in_quotes(id) +
+                     " only what is published can be seen: " + in_quotes(text_of(published.name))
+               : "there is no species " + in_quotes(id) + ", or it is a draft that you may not see";
+}
 
 Response unauthorized(const ResponseBuilder& responses, const Request& request,
                       std::string_view detail) {
@@ -105,7 +118,7 @@ std::string etag_of_text(const Digest& hash) { return '"' + hex_of(hash) + '"'; 
 LibraryName read_species(const std::string& captured, bool may_have_number,
                          ValidationErrors& errors) {
     const std::optional<LibraryName> name = read_library_name(captured);
-    if (name && (may_have_number || name->number == 0)) return *name;
+    if (name && !name->is_draft && (may_have_number || name->number == 0)) return *name;
     errors.add(404, "species",
                in_quotes(captured) + " is not the name of a species in the library; allowed is " +
                    (may_have_number ? "~owner.name or ~owner.name@3" : "~owner.name"));

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "api/library/names.h"
 #include "api/library/records.h"
@@ -51,6 +53,25 @@ struct LibraryCall {
         return context.responses.problem(request, errors);
     }
 };
+
+/// Finds out who sends a request, with the token of its Authorization header. An unknown id takes as long as a wrong
+/// secret.
+///
+/// access   of the route; without a token, Access::required is refused, others are nobody
+/// returns  the caller, or the response that refuses the token
+[[nodiscard]] std::variant<Caller, Response> authenticated(Library& library,
+                                                           const ResponseBuilder& responses,
+                                                           const Request& request, Access access,
+                                                           Scope scope);
+
+/// Returns what stands after "Bearer" in the Authorization header; nothing if the header is another.
+[[nodiscard]] std::optional<std::string_view> bearer_of(const Request& request);
+
+/// Returns true if a key is that of a share of this species that is still good.
+[[nodiscard]] bool is_shared(Library& library, const LibraryName& name, std::string_view key);
+
+/// Returns what is said of a species that the caller may not see, whether it exists or not.
+[[nodiscard]] std::string unseen_message(Library& library, const LibraryName& name);
 
 using LibraryHandler = Response (*)(LibraryCall&);
 

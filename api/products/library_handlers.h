@@ -177,10 +177,6 @@ Response delete_token(LibraryCall& call);
 [[nodiscard]] Response refused_write(const LibraryCall& call, WriteResult result,
                                      const LibraryName& name);
 
-/// Returns true if a key is that of a share of this species that is still good.
-[[nodiscard]] bool is_shared(const LibraryCall& call, const LibraryName& name,
-                             std::string_view key);
-
 /// Returns 404 for a species that the caller may not see, whether it exists or not.
 [[nodiscard]] Response unseen(const LibraryCall& call, const LibraryName& name);
 

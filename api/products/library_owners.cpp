@@ -40,13 +40,6 @@ std::optional<Response> not_own(const LibraryCall& call, const LibraryName& name
 
 }  // namespace
 
-bool is_shared(const LibraryCall& call, const LibraryName& name, std::string_view key) {
-    const std::optional<Secret> secret = read_secret(share_prefix, key);
-    if (!secret) return false;
-    const std::optional<Share> share = call.records.share(name.owner, name.name, secret->id);
-    return has_secret(share, *secret) && !share->is_revoked && share->expires > call.library.now();
-}
-
 Response list_shares(LibraryCall& call) {
     ValidationErrors errors;
     const LibraryName name = read_species(call.captured[0], false, errors);

@@ -175,13 +175,7 @@ std::vector<Problem> obstacles(const LibraryCall& call, const Content& content,
 }  // namespace
 
 Response unseen(const LibraryCall& call, const LibraryName& name) {
-    const std::string id = text_of({name.owner, name.name});
-    const Library::Found published = call.library.find(id);
-    return call.problem(404, published.status == 200
-                                 ? "of " + in_quotes(id) + " only what is published can be seen: " +
-                                       in_quotes(text_of(published.name))
-                                 : "there is no species " + in_quotes(id) +
-                                       ", or it is a draft that you may not see");
+    return call.problem(404, unseen_message(call.library, name));
 }
 
 Response refused_write(const LibraryCall& call, WriteResult result, const LibraryName& name) {
@@ -289,7 +283,7 @@ Response get_library_species(LibraryCall& call) {
         return withdrawn(call.responses(), call.request,
                          withdrawn_message({name.owner, name.name}));
     const bool may_see = name.number > 0 || call.caller.is(name.owner) ||
-                         (key.share && is_shared(call, name, key.share->view()));
+                         (key.share && is_shared(call.library, name, key.share->view()));
     const std::optional<Version> version =
         document && may_see ? call.records.version(name.owner, name.name, name.number)
                             : std::nullopt;

@@ -255,6 +255,10 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
         errors.add(422, request.method == "POST" ? "/textures" : "textures",
                    "addresses are signed here, and those of linked images are not; ask for "
                    "embedded or none");
+    if (resource.is_linked && context.has_drafts)
+        errors.add(422, request.method == "POST" ? "/textures" : "textures",
+                   "images of a draft have no address of their own, since not everybody may see "
+                   "it; ask for embedded or none");
     if (!errors.empty()) return context.responses.problem(request, errors);
     const int depth = link_depth(context, request);
     // Links are relative, so the bytes depend on the depth of the URL against which they are

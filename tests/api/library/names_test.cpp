@@ -6,10 +6,12 @@ namespace sporeprint::api::library_names_test {
 namespace {
 
 TEST(LibraryNames, AreReadAndWritten) {
-    EXPECT_EQ(read_library_name("~kaja.red_bolete@3"), (LibraryName{"kaja", "red_bolete", 3}));
-    EXPECT_EQ(read_library_name("~kaja.red_bolete"), (LibraryName{"kaja", "red_bolete", 0}));
-    EXPECT_EQ(read_library_name("~a.b@64"), (LibraryName{"a", "b", 64}));
-    for (const char* const text : {"~kaja.red_bolete@3", "~a1_.b2_", "~a.b@64"})
+    EXPECT_EQ(read_library_name("~kaja.red_bolete@3"),
+              (LibraryName{"kaja", "red_bolete", 3, false}));
+    EXPECT_EQ(read_library_name("~kaja.red_bolete"), (LibraryName{"kaja", "red_bolete", 0, false}));
+    EXPECT_EQ(read_library_name("~a.b@64"), (LibraryName{"a", "b", 64, false}));
+    EXPECT_TRUE(read_library_name("~kaja.red_bolete@draft").value().is_draft);
+    for (const char* const text : {"~kaja.red_bolete@3", "~a1_.b2_", "~a.b@64", "~a.b@draft"})
         EXPECT_EQ(text_of(read_library_name(text).value()), text);
 }
 
@@ -33,7 +35,8 @@ TEST(LibraryNames, EverythingElseIsNoName) {
                                    "~kaja.bolete@65",
                                    "~kaja.bolete@3x",
                                    "~kaja.bolete@99999999999",
-                                   "~kaja.bolete@draft",
+                                   "~kaja.bolete@Draft",
+                                   "~kaja.bolete@draft3",
                                    "~kaja.bo.lete",
                                    "~kaja.bolete ",
                                    "~kaja.bol\xC3\xA9te",

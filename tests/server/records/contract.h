@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -71,5 +72,8 @@ struct NamedBackend {
     bool (*is_installed)();
     std::unique_ptr<Backend> (*make)();
 };
+
+/// What a failed test prints of it.
+inline void PrintTo(const NamedBackend& backend, std::ostream* out) { *out << backend.name; }
 
 }  // namespace sporeprint::server::test

@@ -471,6 +471,61 @@ TEST_P(LibraryRoutes, SharesShowADraftUntilTheyEnd) {
     EXPECT_EQ(as_kaja("POST", path + "/shares", R"({"expires_s":31536001})").status, 400);
 }
 
+TEST_P(LibraryRoutes, DraftsGrowForThoseWhoMaySeeThem) {
+    ASSERT_EQ(as_kaja("POST", "/v1/library", species_json("red_bolete")).status, 201);
+    const std::string glb = "/v1/mushrooms/~kaja.red_bolete@draft.glb?lod=3&textures=none",
+                      reads = tokens_.at("kaja read");
+    EXPECT_EQ(ask("GET", glb).status, 401);
+    EXPECT_EQ(ask("GET", glb, "spk_abc").status, 401);
+    EXPECT_EQ(ask("GET", glb, tokens_.at("sami admin")).status, 404);
+    EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.nothing@draft.glb", reads).status, 404);
+    const Response first = ask("GET", glb, reads);
+    ASSERT_EQ(first.status, 200) << text_of(first);
+    EXPECT_EQ(text_of(first).substr(0, 4), "glTF");
+    EXPECT_EQ(header_of(first, "Cache-Control"), "private, no-store");
+    EXPECT_EQ(header_of(first, "Content-Location"), "");
+    EXPECT_FALSE(first.cacheable);
+    EXPECT_EQ(text_of(ask("GET", glb, reads)), text_of(first));
+
+    const Response share =
+        as_kaja("POST", "/v1/library/~kaja.red_bolete/shares", "{\"expires_s\":60}");
+    ASSERT_EQ(share.status, 201) << text_of(share);
+    const std::string key = json_of(share).find("share")->as_string();
+    EXPECT_EQ(text_of(ask("GET", glb, key)), text_of(first));
+    ASSERT_EQ(as_kaja("POST", "/v1/library", species_json("other")).status, 201);
+    EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.other@draft.glb?lod=3", key).status, 404)
+        << "the key of another species";
+    now_ += 100;
+    EXPECT_EQ(ask("GET", glb, key).status, 404) << "expired";
+
+    as_kaja("PUT", "/v1/library/~kaja.red_bolete", species_json("red_bolete", "amanita_muscaria"),
+            "*");
+    const Response second = ask("GET", glb, reads);
+    EXPECT_NE(text_of(second), text_of(first));
+    EXPECT_NE(header_of(second, "ETag"), header_of(first, "ETag"));
+    EXPECT_EQ(ask("GET", glb, reads, "", std::string(header_of(first, "ETag"))).status, 412);
+
+    publish("published");
+    for (const char* const path :
+         {"/v1/mushrooms/~kaja.red_bolete@draft:2,amanita_muscaria:1.glb?lod=3&textures=none",
+          "/v1/mushrooms/~kaja.red_bolete@draft:1,~kaja.published:2.glb?lod=3&textures=none",
+          "/v1/mushrooms/~kaja.red_bolete@draft.png?width=64&height=64",
+          "/v1/offspring/~kaja.red_bolete@draft/~kaja.published@1.json"}) {
+        const Response grown = ask("GET", path, reads);
+        EXPECT_EQ(grown.status, 200) << path << ": " << text_of(grown);
+        EXPECT_EQ(header_of(grown, "Cache-Control"), "private, no-store") << path;
+        EXPECT_EQ(ask("GET", path).status, 401) << path;
+    }
+    EXPECT_EQ(ask("GET", glb + "&age=7", reads).status, 400);
+    const Response linked =
+        ask("GET", "/v1/mushrooms/~kaja.red_bolete@draft.glb?lod=3&textures=linked", reads);
+    EXPECT_EQ(linked.status, 422);
+    EXPECT_EQ(
+        as_kaja("POST", "/v1/library?parent=~kaja.red_bolete@draft", species_json("child")).status,
+        404);
+    EXPECT_EQ(as_kaja("GET", "/v1/library/~kaja.red_bolete@draft").status, 404);
+}
+
 TEST_P(LibraryRoutes, TokensAreMadeAndRevokedByTokens) {
     const std::string admin = tokens_.at("kaja admin");
     const Response made =
