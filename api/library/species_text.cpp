@@ -1,7 +1,11 @@
 #include "api/library/species_text.h"
 
+#include <utf8proc.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "api/library/tokens.h"
@@ -164,6 +168,25 @@ void refuse_deceptive_texts(const Value& species, const std::string& path,
                         hex += digits[(c >> static_cast<unsigned>(shift)) & 15U];
                     return hex;
                 }() + "; allowed are texts without control characters and marks of direction");
+    });
+}
+
+std::string composed(std::string_view text) {
+    if (std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; }))
+        return std::string(text);
+    utf8proc_uint8_t* out = nullptr;
+    const utf8proc_ssize_t size =
+        utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                     static_cast<utf8proc_ssize_t>(text.size()), &out,
+                     static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE));
+    const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owned(out, std::free);
+    if (size < 0) throw GenerationError(utf8proc_errmsg(size));
+    return {reinterpret_cast<const char*>(out), static_cast<std::size_t>(size)};
+}
+
+void compose_texts(Value& species) {
+    each_value(species, "", [](const std::string&, Value& value) {
+        if (value.is_string()) value = composed(value.as_string());
     });
 }
 

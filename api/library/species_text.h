@@ -33,6 +33,15 @@ inline constexpr int species_format = 1;
 void refuse_deceptive_texts(const Value& species, const std::string& path,
                             std::vector<Problem>& problems);
 
+/// Returns a text in Unicode's composed normal form (NFC), so that a name looks and is the same on whatever keyboard
+/// it was typed.
+///
+/// text  valid UTF-8
+[[nodiscard]] std::string composed(std::string_view text);
+
+/// Brings all texts of a species into that form.
+void compose_texts(Value& species);
+
 /// Returns JSON pointers of the parts in which two species differ, at most `most`.
 [[nodiscard]] std::vector<std::string> differences(const Value& a, const Value& b,
                                                    std::size_t most);

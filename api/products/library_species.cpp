@@ -69,8 +69,9 @@ Response written_response(const LibraryCall& call, const LibraryName& name, cons
 
 /// Reads the species in a body. Adds its problems, as 400.
 std::optional<Species> read_species_body(const LibraryCall& call, ValidationErrors& errors) {
-    const std::optional<Value> body = read_body(call.request.body, errors);
+    std::optional<Value> body = read_body(call.request.body, errors);
     if (!body) return std::nullopt;
+    compose_texts(*body);
     std::vector<Problem> problems;
     Species species = read_all<Species>(*body, problems);
     refuse_deceptive_texts(*body, "", problems);
@@ -217,7 +218,7 @@ Response list_library(LibraryCall& call) {
     listing.owner = text(filter.owner);
     listing.kind = text(filter.form);
     listing.parent = text(filter.parent);
-    listing.part = text(filter.q);
+    listing.part = composed(text(filter.q));
     listing.limit = filter.limit + 1;
     if (filter.mine && call.caller.owner.empty())
         return unauthorized(call.responses(), call.request, "mine=true needs a token of the owner");
@@ -347,7 +348,7 @@ Response publish_species(LibraryCall& call) {
     errors.add(422, obstacles(call, draft->content, text_of({name.owner, name.name, 1})));
     if (!errors.empty()) return call.problem(errors);
     const Written written = call.records.publish(name.owner, name.name, draft->content.hash,
-                                                 order.note.view(), call.library.now());
+                                                 composed(order.note.view()), call.library.now());
     if (written.result != WriteResult::done) return refused_write(call, written.result, name);
     call.library.refresh();
     Response response = written_response(call, name, written, 201);

@@ -83,6 +83,17 @@ TEST(SpeciesText, DeceptiveTextsAreNamed) {
     EXPECT_EQ(problems_of("\xE2\x81\xA6").size(), 1U);
 }
 
+TEST(SpeciesText, TextsAreComposed) {
+    EXPECT_EQ(composed("C\xC3\xA8pe"), "C\xC3\xA8pe");
+    EXPECT_EQ(composed("Ce\xCC\x80pe"), "C\xC3\xA8pe") << "e and a combining grave accent";
+    EXPECT_EQ(composed("\xE1\x84\x80\xE1\x85\xA1"), "\xEA\xB0\x80") << "jamo of a Hangul syllable";
+    EXPECT_EQ(composed("\xEF\xAC\x81"), "\xEF\xAC\x81") << "ligatures are other letters";
+    EXPECT_EQ(composed(""), "");
+    Value json = Value::object().set("a", Value(Value::Array{Value("e\xCC\x80"), Value(7)}));
+    compose_texts(json);
+    EXPECT_EQ(dump(json), "{\"a\":[\"\xC3\xA8\",7]}");
+}
+
 TEST(SpeciesText, DifferencesArePointersOfTheSmallestParts) {
     Species species = built_in_atlas()->find("boletus_edulis")->species;
     const Value before = write(species);
