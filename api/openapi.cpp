@@ -111,6 +111,8 @@ Value parameters_of(const Route& route, const DocumentInputs& inputs) {
         parameters.push(path_parameter("species",
                                        "A species of the library: ~owner.name, or ~owner.name@3.",
                                        text, "~kaja.red_bolete"));
+    if (has("{lod}"))
+        parameters.push(path_parameter("lod", "A level of detail that is baked.", text, "0"));
     if (has("{share}"))
         parameters.push(path_parameter("share", "The id of a key.", text, "abcdefgh"));
     if (has("{token}"))

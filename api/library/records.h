@@ -84,7 +84,8 @@ enum class DocumentState : std::uint8_t { active, unlisted, purged };
 
 /// Bytes beside the text of a version, stored once for all documents that have them.
 struct Blob {
-    std::string place;  ///< where in the text they belong
+    std::string
+        place;  ///< where in the text they belong, which begins with '/'; of a file its name
     std::string media;  ///< media type
     Digest sha256{};
     std::vector<std::uint8_t> bytes;
@@ -99,6 +100,9 @@ struct Content {
     std::string title;  ///< in lists
     std::vector<Blob> blobs;
 };
+
+/// Returns whether a blob belongs into the text of its version, or is a file beside it.
+[[nodiscard]] constexpr bool is_in_text(std::string_view place) { return place.starts_with('/'); }
 
 struct Version {
     int number = 0;             ///< 0 is the draft
@@ -124,6 +128,13 @@ struct Change {
     std::string owner, name;
     DocumentState state = DocumentState::active;
     std::vector<std::pair<int, Digest>> versions;  ///< numbers and hashes, ascending
+};
+
+/// What is published with a draft.
+struct Publication {
+    std::string note{};
+    std::vector<Blob> files{};  ///< of the version, stored with it
+    int number = 0;             ///< of the version that the files are of, which has to be the next
 };
 
 /// How a write ended. All but `done` changed nothing.
@@ -203,12 +214,14 @@ class Records {
     virtual Written replace(std::string_view owner, std::string_view name,
                             const std::optional<Digest>& expected, const Content& content,
                             Seconds now) = 0;
-    /// Publishes the draft as the next version: done, missing, stale, purged, too_many, too_large.
+    /// Publishes the draft as the next version: done, missing, stale (also if files are of another version),
+    /// purged, too_many, too_large.
     virtual Written publish(std::string_view owner, std::string_view name,
-                            const std::optional<Digest>& expected, std::string_view note,
+                            const std::optional<Digest>& expected, const Publication& publication,
                             Seconds now) = 0;
     /// Creates a document with all its versions at once, each with the number that it has; the draft is 0 and
-    /// comes first: done, missing (owner), taken, too_many, too_large. A purged document has no versions.
+    /// comes first: done, missing (owner), taken, too_many, too_large. A purged document has no versions. Files are
+    /// among the blobs of their version.
     virtual Written restore(const StoredDocument& document,
                             const std::vector<Version>& versions) = 0;
     /// Takes a document out of lists, or deletes all its bytes: done, missing, stale, purged.
@@ -221,6 +234,12 @@ class Records {
     /// Returns a version with its blobs; number 0 is the draft.
     [[nodiscard]] virtual std::optional<Version> version(std::string_view owner,
                                                          std::string_view name, int number) = 0;
+    /// Returns the files of a published version by name, without their bytes.
+    [[nodiscard]] virtual std::vector<Blob> files(std::string_view owner, std::string_view name,
+                                                  int number) = 0;
+    /// Returns a file of a published version.
+    [[nodiscard]] virtual std::optional<Blob> file(std::string_view owner, std::string_view name,
+                                                   int number, std::string_view file) = 0;
     /// Returns the documents of a list, by owner and name.
     [[nodiscard]] virtual std::vector<StoredDocument> list(const Listing& listing) = 0;
     /// Returns all documents that have changed since a serial number, by serial number.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "api/http/compression.h"
 #include "api/http/schemas.h"
 #include "api/products/library_handlers.h"
 #include "core/params/schema.h"
@@ -134,9 +135,29 @@ constexpr Route library[] = {
      .success = 201,
      .response_schema = "library_species",
      .request_body = "library_publication",
-     .plan = library_route<Scope::write, publish_species>,
+     .plan = plan_publication,
      .access = Access::required,
      .has_condition = true,
+     .has_etag = true},
+    {.kind = RouteKind::record,
+     .method = "GET",
+     .pattern = "/v1/library/{species}/baked.json",
+     .id = "list_baked",
+     .summary = "The finished files that are stored with a published version.",
+     .media_type = json,
+     .response_schema = "library_baked",
+     .plan = library_route<Scope::read, list_baked>,
+     .access = Access::chosen},
+    {.kind = RouteKind::record,
+     .method = "GET",
+     .pattern = "/v1/library/{species}/baked/{lod}.glb",
+     .id = "get_baked",
+     .summary =
+         "A finished file of a published version, the same bytes for ever, until its owner purges "
+         "the species.",
+     .media_type = glb_type,
+     .plan = library_route<Scope::read, get_baked>,
+     .access = Access::chosen,
      .has_etag = true},
     {.kind = RouteKind::record,
      .method = "POST",
@@ -303,6 +324,9 @@ void add_library_schemas(Value& schemas, const Atlas&) {
                                        {"max_versions", whole},
                                        {"max_tokens", whole},
                                        {"max_shares", whole}}))
+        .set("library_baked",
+             objects(
+                 {{"files", list_of(objects({{"lod", whole}, {"sha256", text}, {"url", text}}))}}))
         .set("library_import",
              objects({{"id", text}, {"newest", whole}, {"written", typed("boolean")}}))
         .set("library_export", objects({{"format", whole},
@@ -325,7 +349,8 @@ void add_library_bodies(Value& bodies, const Atlas&) {
              json_body("A whole species, as in the files of an atlas; its `id` is its name.",
                        reference("schemas/species"), object({{"id", "my_bolete"}})))
         .set("library_publication",
-             json_body("What is new.", schema<PublishOrder>(), object({{"note", "A paler cap."}})))
+             json_body("What is new.", schema<PublishOrder>(),
+                       object({{"note", "A paler cap."}, {"bake", Value(Value::Array{0, 1})}})))
         .set("library_fork", json_body("The name of the copy.", schema<ForkOrder>(),
                                        object({{"name", "my_bolete"}})))
         .set("library_share", json_body("How long the key is good.", schema<ShareOrder>(),

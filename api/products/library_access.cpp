@@ -88,13 +88,13 @@ Response withdrawn(const ResponseBuilder& responses, const Request& request,
         {{"type", Value(responses.link("/problems/withdrawn"))}, {"title", Value("Withdrawn")}});
 }
 
-Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler) {
+Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler, const Cost& more) {
     const Context& context = call.context;
     if (!context.library) return context.responses.problem(call.request, 404, no_library);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     const std::string key = "library " + std::to_string(context.library->next_write());
     // What is written is a few milliseconds of the disk, and of a processor for a species of 100 kB.
-    const Cost cost{.base = 3000 + call.request.body.size() / 20};
+    const Cost cost = Cost{.base = 3000 + call.request.body.size() / 20} + more;
     auto run = [&context, library = context.library, request = call.request, target = call.target,
                 captured = call.captured, access = call.route.access, scope,
                 handler](const std::stop_token&, const Observer& observer, const Parallel&) {

@@ -79,7 +79,9 @@ using LibraryHandler = Response (*)(LibraryCall&);
 /// cancelled, so that a client which has gone away knows no less than the database.
 ///
 /// scope  that the token needs, if Route::access requires one
-[[nodiscard]] Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler);
+/// more   of what the handler does besides reading and writing a species
+[[nodiscard]] Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler,
+                                const Cost& more = {});
 
 /// A handler of Route::plan.
 template <Scope Needed, LibraryHandler Handler>

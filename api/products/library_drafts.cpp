@@ -24,15 +24,6 @@ std::optional<LibraryName> draft_name(std::string_view id) {
     return name && name->is_draft ? name : std::nullopt;
 }
 
-/// Returns a context whose atlas has guests, and whose caches compute what they do not have.
-std::shared_ptr<Context> context_of(const Context& context, std::vector<AtlasGuest> guests) {
-    auto own = std::make_shared<Context>(context);
-    own->atlas = std::make_shared<const Atlas>(context.atlas, std::move(guests));
-    own->has_guests = own->has_drafts = true;
-    own->caches = computed_inline(context.store);
-    return own;
-}
-
 /// Returns the cost of the same request with a built-in species in the place of each draft.
 Cost estimated_cost(const Context& context, const std::vector<std::string>& ids,
                     const PlanAgain& again) {
@@ -40,7 +31,7 @@ Cost estimated_cost(const Context& context, const std::vector<std::string>& ids,
     std::vector<AtlasGuest> guests;
     guests.reserve(ids.size());
     for (const std::string& id : ids) guests.push_back({id, entry_of(any.species, id)});
-    const std::shared_ptr<Context> own = context_of(context, std::move(guests));
+    const std::shared_ptr<Context> own = context_with_guests(context, std::move(guests));
     own->caches = context.caches;
     try {
         const Plan plan = again(*own);
@@ -110,6 +101,15 @@ void make_private(Response& response) {
 
 }  // namespace
 
+std::shared_ptr<Context> context_with_guests(const Context& context,
+                                             std::vector<AtlasGuest> guests) {
+    auto own = std::make_shared<Context>(context);
+    own->atlas = std::make_shared<const Atlas>(context.atlas, std::move(guests));
+    own->has_guests = true;
+    own->caches = computed_inline(context.store);
+    return own;
+}
+
 bool has_draft(const std::vector<std::string>& ids) {
     return std::any_of(ids.begin(), ids.end(),
                        [](const std::string& id) { return draft_name(id).has_value(); });
@@ -134,7 +134,8 @@ Plan plan_with_drafts(const Context& context, const Request& request,
                 guests.push_back(
                     {id, std::get<std::shared_ptr<const AtlasEntry>>(std::move(found))});
             }
-            const std::shared_ptr<Context> own = context_of(context, guests);
+            const std::shared_ptr<Context> own = context_with_guests(context, guests);
+            own->has_drafts = true;
             try {
                 Plan plan = again(*own);
                 Response response;

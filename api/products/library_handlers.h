@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <set>
+#include <variant>
 #include <vector>
 
 #include "api/products/library_access.h"
@@ -100,10 +102,20 @@ struct ImportOptions {
 
 struct PublishOrder {
     Text<200> note;
+    std::vector<int> bake{};
 
     static constexpr void fields(auto visit) {
         visit(&PublishOrder::note,
               Info{.name = "note", .most = 200, .doc = "What is new in this version."});
+        visit(&PublishOrder::bake,
+              Info{.name = "bake",
+                   .min = 0,
+                   .max = last_lod,
+                   .most = last_lod + 1,
+                   .doc = "Levels of detail whose finished GLB files are stored too, at "
+                          "/v1/library/~owner.name@3/baked/0.glb: the bytes of this day for ever, "
+                          "whatever later generators make of the species. They count as bytes of "
+                          "the owner."});
     }
 };
 
@@ -163,6 +175,23 @@ Response delete_species(LibraryCall& call);
 // library_transfer.cpp
 Response export_species(LibraryCall& call);
 Response import_species(LibraryCall& call);
+
+// library_baked.cpp
+Plan plan_publication(RouteCall& call);
+Response list_baked(LibraryCall& call);
+Response get_baked(LibraryCall& call);
+
+/// Grows the default mushroom of a version that is about to be published, as its address will show it.
+///
+/// lods     levels of detail
+/// returns  a file of each, or the response that says why one cannot be grown
+[[nodiscard]] std::variant<std::vector<Blob>, Response> bake(const LibraryCall& call,
+                                                             const Content& content,
+                                                             const LibraryName& version,
+                                                             const std::set<int>& lods);
+
+/// Returns the path of a baked file.
+[[nodiscard]] std::string baked_path(const LibraryName& version, std::string_view file);
 
 // library_owners.cpp
 Response list_shares(LibraryCall& call);

@@ -1,6 +1,7 @@
 // Drafts and published versions of users' species.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "api/http/conditions.h"
@@ -341,14 +342,23 @@ Response publish_species(LibraryCall& call) {
     if (!errors.empty()) return call.problem(errors);
     const Expected expected = expected_draft(call, name);
     if (auto refusal = refused_condition(call, name, expected, nullptr)) return *std::move(refusal);
+    const std::optional<StoredDocument> document = call.records.document(name.owner, name.name);
     const std::optional<Version> draft = call.records.version(name.owner, name.name, 0);
-    if (!draft) return without_draft(call, name);
+    if (!document || !draft) return without_draft(call, name);
     if (expected.draft && draft->content.hash != *expected.draft) return stale(call, name, nullptr);
     // What is published can be grown at all ages; a draft need not be.
     errors.add(422, obstacles(call, draft->content, text_of({name.owner, name.name, 1})));
     if (!errors.empty()) return call.problem(errors);
+    Publication publication{composed(order.note.view())};
+    if (!order.bake.empty()) {
+        publication.number = document->newest + 1;
+        auto baked = bake(call, draft->content, {name.owner, name.name, publication.number, false},
+                          std::set<int>(order.bake.begin(), order.bake.end()));
+        if (Response* const refused = std::get_if<Response>(&baked)) return std::move(*refused);
+        publication.files = std::get<std::vector<Blob>>(std::move(baked));
+    }
     const Written written = call.records.publish(name.owner, name.name, draft->content.hash,
-                                                 composed(order.note.view()), call.library.now());
+                                                 publication, call.library.now());
     if (written.result != WriteResult::done) return refused_write(call, written.result, name);
     call.library.refresh();
     Response response = written_response(call, name, written, 201);

@@ -28,6 +28,12 @@ void copy_document(Records& from, Records& to, const StoredDocument& document, S
         for (int number = 0; number <= document.newest; ++number) {
             std::optional<Version> version = from.version(document.owner, document.name, number);
             if (!version) throw Unavailable(name + " has changed while it was copied");
+            for (const Blob& named : from.files(document.owner, document.name, number)) {
+                std::optional<Blob> file =
+                    from.file(document.owner, document.name, number, named.place);
+                if (!file) throw Unavailable(name + " has changed while it was copied");
+                version->content.blobs.push_back(*std::move(file));
+            }
             versions.push_back(*std::move(version));
         }
     expect_done(to.restore(document, versions).result, name);

@@ -152,9 +152,9 @@ void mark_changed(SqlConnection& sql, std::int64_t document) {
 
 using Digests = std::set<Digest>;
 
-Digests digests_of(const Content& content) {
+Digests digests_of(const std::vector<Blob>& blobs) {
     Digests digests;
-    for (const Blob& blob : content.blobs) digests.insert(blob.sha256);
+    for (const Blob& blob : blobs) digests.insert(blob.sha256);
     return digests;
 }
 
@@ -436,7 +436,7 @@ class SqlRecords final : public Records {
                 return WriteResult::too_many;
             Digests digests;
             for (const Version& version : versions) {
-                digests.merge(digests_of(version.content));
+                digests.merge(digests_of(version.content.blobs));
                 written.number = std::max(written.number, version.number);
                 if (version.number > 0) continue;
                 written.current = version.content.hash;
@@ -473,7 +473,7 @@ class SqlRecords final : public Records {
             owner, name, expected,
             [&](SqlConnection& sql, const DraftToWrite& found, Written& written) {
                 Digests digests = digests_of(sql, found.document.id, 0);
-                digests.merge(digests_of(content));
+                digests.merge(digests_of(content.blobs));
                 std::int64_t bytes = -bytes_of_blobs(sql, found.owner, digests) - found.draft.size;
                 if (!digests.empty()) {
                     sql.reserve_shared_rows();
@@ -495,27 +495,33 @@ class SqlRecords final : public Records {
     }
 
     Written publish(std::string_view owner, std::string_view name,
-                    const std::optional<Digest>& expected, std::string_view note,
+                    const std::optional<Digest>& expected, const Publication& publication,
                     Seconds now) override {
         return write_draft(
             owner, name, expected,
             [&](SqlConnection& sql, const DraftToWrite& found, Written& written) {
                 if (found.document.newest >= most_versions) return WriteResult::too_many;
+                const std::vector<Blob>& files = publication.files;
+                if (!files.empty() && publication.number != found.document.newest + 1)
+                    return WriteResult::stale;
                 written.number = found.document.newest + 1;
                 run(sql,
                     "INSERT INTO version (document, number, revision, hash, format, kind, title, "
                     "size, made, note, text) SELECT document, $1, revision, hash, format, kind, "
                     "title, size, $2, $3, text FROM version WHERE document = $4 AND number = 0",
-                    written.number, now, note, found.document.id);
-                if (!digests_of(sql, found.document.id, 0).empty()) {
+                    written.number, now, publication.note, found.document.id);
+                if (!files.empty() || !digests_of(sql, found.document.id, 0).empty())
                     sql.reserve_shared_rows();
-                    tie_blobs_of_draft(sql, found.document.id, written.number);
-                }
+                tie_blobs_of_draft(sql, found.document.id, written.number);
+                const Digests digests = digests_of(files);
+                std::int64_t bytes = found.draft.size - bytes_of_blobs(sql, found.owner, digests);
+                insert_blobs(sql, found.document.id, written.number, files);
+                bytes += bytes_of_blobs(sql, found.owner, digests);
                 // Publishing what was withdrawn puts it into lists again.
                 run(sql,
                     "UPDATE document SET newest = $1, updated = $2, state = 'active' WHERE id = $3",
                     written.number, now, found.document.id);
-                if (!add_bytes(sql, found.owner, found.draft.size)) return WriteResult::too_large;
+                if (!add_bytes(sql, found.owner, bytes)) return WriteResult::too_large;
                 mark_changed(sql, found.document.id);
                 return WriteResult::done;
             });
@@ -579,13 +585,42 @@ class SqlRecords final : public Records {
                 execute(sql,
                         "SELECT v.place, b.media, b.sha256, b.bytes FROM version_blob v JOIN blob "
                         "b ON b.sha256 = v.sha256 WHERE v.document = $1 AND v.number = $2 "
-                        "ORDER BY v.place",
+                        "AND v.place LIKE '/%' ORDER BY v.place",
                         document->id, number);
-            for (SqlRow& blob : blobs.rows)
-                found.content.blobs.push_back(
-                    {text_in(blob[0]), text_in(blob[1]), digest_in(blob[2]),
-                     std::get<std::vector<std::uint8_t>>(std::move(blob[3]))});
+            for (SqlRow& blob : blobs.rows) found.content.blobs.push_back(blob_in(blob));
             return found;
+        });
+    }
+
+    std::vector<Blob> files(std::string_view owner, std::string_view name, int number) override {
+        return read([&](SqlConnection& sql) {
+            const SqlResult found =
+                execute(sql,
+                        "SELECT v.place, b.media, b.sha256 FROM document d JOIN owner o ON o.id = "
+                        "d.owner JOIN version_blob v ON v.document = d.id JOIN blob b ON b.sha256 "
+                        "= v.sha256 WHERE o.name = $1 AND d.name = $2 AND v.number = $3 "
+                        "AND v.place NOT LIKE '/%' ORDER BY v.place",
+                        owner, name, number);
+            std::vector<Blob> files;
+            files.reserve(found.rows.size());
+            for (const SqlRow& row : found.rows)
+                files.push_back({text_in(row[0]), text_in(row[1]), digest_in(row[2]), {}});
+            return files;
+        });
+    }
+
+    std::optional<Blob> file(std::string_view owner, std::string_view name, int number,
+                             std::string_view file) override {
+        return read([&](SqlConnection& sql) -> std::optional<Blob> {
+            SqlResult found =
+                execute(sql,
+                        "SELECT v.place, b.media, b.sha256, b.bytes FROM document d JOIN owner o "
+                        "ON o.id = d.owner JOIN version_blob v ON v.document = d.id JOIN blob b ON "
+                        "b.sha256 = v.sha256 WHERE o.name = $1 AND d.name = $2 AND v.number = $3 "
+                        "AND v.place = $4 AND v.place NOT LIKE '/%'",
+                        owner, name, number, file);
+            if (found.rows.empty()) return std::nullopt;
+            return blob_in(found.rows.front());
         });
     }
 
@@ -721,6 +756,12 @@ class SqlRecords final : public Records {
             now, found.document.id);
         run(sql, "UPDATE owner SET documents = documents - 1 WHERE id = $1", found.owner);
         add_bytes(sql, found.owner, bytes);
+    }
+
+    /// Moves the bytes out of a row of place, media type, digest and bytes.
+    static Blob blob_in(SqlRow& row) {
+        return {text_in(row[0]), text_in(row[1]), digest_in(row[2]),
+                std::get<std::vector<std::uint8_t>>(std::move(row[3]))};
     }
 
     static StoredDocument document_in(const SqlRow& row) {

@@ -32,10 +32,14 @@ async function callLibrary(client: Client, token: string, both: (head: Promise<R
     const path = { species: created?.id ?? "" };
     const condition = { path, header: { "If-Match": draft } };
     await client.PUT("/v1/library/{species}", { headers, params: condition, body: own });
-    const { data: published } = await client.POST("/v1/library/{species}/publish", { headers, params: condition, body: { note: "first" } });
+    const { data: published } = await client.POST("/v1/library/{species}/publish", { headers, params: condition, body: { note: "first", bake: [3] } });
     if (published?.newest !== 1) throw new Error("the species is not published");
     const version = { params: { path: { species: `${path.species}@${published.newest}` } } };
     await both(client.HEAD("/v1/library/{species}", version), client.GET("/v1/library/{species}", version));
+    await both(client.HEAD("/v1/library/{species}/baked.json", version), client.GET("/v1/library/{species}/baked.json", version));
+    const baked = { params: { path: { ...version.params.path, lod: "3" } } };
+    await client.HEAD("/v1/library/{species}/baked/{lod}.glb", baked);
+    await client.GET("/v1/library/{species}/baked/{lod}.glb", { ...baked, parseAs: "arrayBuffer" });
     await client.HEAD("/v1/library", {});
     const { data: listed } = await client.GET("/v1/library", { params: { query: { q: "typed" } } });
     if (listed?.species[0]?.id !== path.species) throw new Error("the species is not listed");

@@ -42,6 +42,7 @@ export class Generator {
         if (schema.enum) return dice.pick(schema.enum);
         if ((name === "a" || name === "b") && schema.oneOf) return dice.pick(dice.pick(this.lists.families)); // a parent
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
+        if (name === "lod") return dice.pick(["0", "3"]);
         if (name === "species") return this.someSpecies();
         if (name === "photo") return dice.pick(this.lists.photos);
         if (name === "lock") return schema.type === "array" ? ["surface.cap", "size"].slice(dice.below(3)) : dice.pick(["surface.cap", "size,surface.stem", "deformation.bend_deg"]);
@@ -110,6 +111,7 @@ export class Generator {
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
         if (name === "type") return dice.pick(lists.types);
         if (name === "photo") return dice.pick(lists.photos);
+        if (name === "lod") return dice.pick(["0", "3"]);
         if (name === "species") return dice.pick(lists.library) + dice.pick(["", "@1", "@2"]);
         if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
         return undefined;
@@ -196,7 +198,7 @@ export async function listsOf(url, document) {
         const send = (method, path, body, headers = {}) =>
             fetch(url + path, { method, headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json", ...headers }, body: JSON.stringify(body) });
         await send("POST", "/v1/library", { ...template, id: name });
-        await send("POST", `/v1/library/~me.${name}/publish`, {}, { "If-Match": "*" });
+        await send("POST", `/v1/library/~me.${name}/publish`, { bake: [3] }, { "If-Match": "*" });
         return `~me.${name}`;
     };
     const list = async (path, key) => (await (await fetch(url + path)).json())[key].map((one) => one.id);

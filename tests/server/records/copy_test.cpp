@@ -58,13 +58,19 @@ TEST_P(Copies, EverythingThatIsStillGoodIsThere) {
     for (int i = 1; i <= most_versions; ++i) {
         const std::string text = "version \xC3\xA9 " + std::to_string(i);
         library_->replace("kaja", "bolete", std::nullopt, content(text, "pixels of " + text), i);
-        library_->publish("kaja", "bolete", std::nullopt, "note", i);
+        Publication publication{"note"};
+        if (i == 7) {
+            publication.number = i;
+            publication.files = {
+                {"0.glb", "model/gltf-binary", sha256_of("glTF"), {'g', 'l', 'T', 'F'}}};
+        }
+        library_->publish("kaja", "bolete", std::nullopt, publication, i);
     }
     library_->create("kaja", "unlisted", content("unlisted"), "", "", 6);
-    library_->publish("kaja", "unlisted", std::nullopt, "", 7);
+    library_->publish("kaja", "unlisted", std::nullopt, {}, 7);
     library_->withdraw("kaja", "unlisted", std::nullopt, false, 8);
     library_->create("kaja", "gone", content("gone"), "", "", 6);
-    library_->publish("kaja", "gone", std::nullopt, "", 7);
+    library_->publish("kaja", "gone", std::nullopt, {}, 7);
     library_->withdraw("kaja", "gone", std::nullopt, true, 8);
     library_->create("sami", "draft", content("only a draft"), "", "", 9);
     for (const Token& one : {token("goodtokn"), token("expired1", 50), token("revoked1")})
@@ -99,6 +105,7 @@ TEST_P(Copies, EverythingThatIsStillGoodIsThere) {
         EXPECT_EQ(is.made, was.made);
         EXPECT_EQ(is.note, was.note);
     }
+    EXPECT_EQ(other_->file("kaja", "bolete", 7, "0.glb")->sha256, sha256_of("glTF"));
     EXPECT_EQ(other_->document("kaja", "bolete")->parent, "~sami.cap@2");
     EXPECT_EQ(other_->document("kaja", "unlisted")->state, DocumentState::unlisted);
     EXPECT_EQ(other_->document("kaja", "gone")->state, DocumentState::purged);

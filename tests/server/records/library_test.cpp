@@ -471,6 +471,50 @@ TEST_P(LibraryRoutes, SharesShowADraftUntilTheyEnd) {
     EXPECT_EQ(as_kaja("POST", path + "/shares", R"({"expires_s":31536001})").status, 400);
 }
 
+TEST_P(LibraryRoutes, BakedFilesAreTheBytesOfTheDay) {
+    ASSERT_EQ(as_kaja("POST", "/v1/library", species_json("red_bolete")).status, 201);
+    const std::string path = "/v1/library/~kaja.red_bolete";
+    EXPECT_EQ(as_kaja("POST", path + "/publish", R"({"bake":[4]})", "*").status, 400);
+    EXPECT_EQ(as_kaja("POST", path + "/publish", R"({"bake":[0,1,2,3,3]})", "*").status, 400);
+    ASSERT_EQ(as_kaja("POST", path + "/publish", R"({"bake":[3,2,3]})", "*").status, 201);
+    const Value list = json_of(ask("GET", path + "@1/baked.json"));
+    ASSERT_EQ(list.find("files")->items().size(), 2U);
+    for (const Value& file : list.find("files")->items()) {
+        const std::string lod = number_text(file.find("lod")->as_number());
+        const Response baked = ask("GET", file.find("url")->as_string());
+        ASSERT_EQ(baked.status, 200) << text_of(baked);
+        EXPECT_EQ(header_of(baked, "Content-Type"), "model/gltf-binary");
+        EXPECT_EQ(header_of(baked, "ETag"), '"' + file.find("sha256")->as_string() + '"');
+        EXPECT_EQ(hex_of(sha256_of(text_of(baked))), file.find("sha256")->as_string());
+        EXPECT_EQ(text_of(baked),
+                  text_of(ask("GET", "/v1/mushrooms/~kaja.red_bolete@1.glb?lod=" + lod)))
+            << "as this generator makes it";
+    }
+    const std::string lod3 = path + "@1/baked/3.glb";
+    Request again{"GET",
+                  lod3,
+                  {{"If-None-Match", std::string(header_of(ask("GET", lod3), "ETag"))}},
+                  {},
+                  "test-2"};
+    EXPECT_EQ(handle(*service_, again).status, 304);
+    EXPECT_EQ(ask("GET", path + "@1/baked/0.glb").status, 404);
+    EXPECT_EQ(ask("GET", path + "@1/baked/-3.glb").status, 404);
+    EXPECT_EQ(ask("GET", path + "@2/baked/3.glb").status, 404);
+    EXPECT_EQ(ask("GET", path + "/baked/3.glb").status, 200) << "of the newest version";
+    const double used = json_of(as_kaja("GET", "/v1/library/quota")).find("bytes")->as_number();
+    EXPECT_GT(used, static_cast<double>(text_of(ask("GET", lod3)).size()));
+    ASSERT_EQ(as_kaja("POST", path + "/publish", "{}", "*").status, 201);
+    EXPECT_EQ(ask("GET", path + "/baked/3.glb").status, 404);
+    EXPECT_EQ(ask("GET", lod3).status, 200);
+    const Response exported = as_kaja("GET", path + "/export.json");
+    EXPECT_EQ(ask("POST", "/v1/library/import", tokens_.at("sami write"), text_of(exported)).status,
+              201)
+        << "without what is baked";
+    as_kaja("DELETE", path + "?purge=true", "", "*");
+    EXPECT_EQ(ask("GET", lod3).status, 410);
+    EXPECT_EQ(json_of(as_kaja("GET", "/v1/library/quota")).find("bytes")->as_number(), 0);
+}
+
 TEST_P(LibraryRoutes, DraftsGrowForThoseWhoMaySeeThem) {
     ASSERT_EQ(as_kaja("POST", "/v1/library", species_json("red_bolete")).status, 201);
     const std::string glb = "/v1/mushrooms/~kaja.red_bolete@draft.glb?lod=3&textures=none",

@@ -92,7 +92,7 @@ TEST_F(Postgres, AUserThatMayOnlyReadAndWriteRowsIsEnough) {
     const std::unique_ptr<Records> records = open_postgres_records(address);
     EXPECT_EQ(records->create("kaja", "bolete", content("first"), "", "", 1).result,
               WriteResult::done);
-    EXPECT_EQ(records->publish("kaja", "bolete", std::nullopt, "", 1).number, 1);
+    EXPECT_EQ(records->publish("kaja", "bolete", std::nullopt, {}, 1).number, 1);
     const std::string fresh = cluster_->new_database();
     address = cluster_->address(fresh);
     address.replace(address.find("sporeprint@"), 11, "little@");
@@ -121,7 +121,7 @@ TEST_F(Postgres, ThePublishedIsProtectedByTheDatabaseItself) {
     const std::unique_ptr<Records> records = open();
     records->add_owner("kaja", 1);
     records->create("kaja", "bolete", content("first"), "", "", 1);
-    records->publish("kaja", "bolete", std::nullopt, "", 1);
+    records->publish("kaja", "bolete", std::nullopt, {}, 1);
     cluster_->execute(database_, "UPDATE sporeprint.version SET note = 'x' WHERE number = 0");
     EXPECT_THROW(
         cluster_->execute(database_, "UPDATE sporeprint.version SET note = 'x' WHERE number = 1"),
@@ -192,7 +192,7 @@ TEST_F(Postgres, OtherReplicasLearnOfChangesAtOnce) {
     constexpr std::int64_t forever_ms = 600'000;
     replica->wait_for_change(stop.get_token(), forever_ms);  // begins to listen, and returns
     EXPECT_TRUE(replica->changes(0).empty());
-    std::jthread publisher([&] { records->publish("kaja", "bolete", std::nullopt, "", 2); });
+    std::jthread publisher([&] { records->publish("kaja", "bolete", std::nullopt, {}, 2); });
     replica->wait_for_change(stop.get_token(), forever_ms);
     EXPECT_EQ(replica->changes(0).size(), 1U) << "the notice comes with the commit, not before";
     publisher.join();

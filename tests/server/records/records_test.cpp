@@ -169,7 +169,7 @@ TEST_P(RecordsContract, OfTwoWritersOneIsStale) {
     EXPECT_EQ(two.result, WriteResult::stale);
     EXPECT_EQ(two.current, sha256_of("second"));
     EXPECT_EQ(records_->version("kaja", "bolete", 0)->content.text, "second");
-    EXPECT_EQ(other->publish("kaja", "bolete", seen, "", 4).result, WriteResult::stale);
+    EXPECT_EQ(other->publish("kaja", "bolete", seen, {}, 4).result, WriteResult::stale);
     EXPECT_EQ(other->withdraw("kaja", "bolete", seen, true, 4).result, WriteResult::stale);
     EXPECT_EQ(other->replace("kaja", "bolete", std::nullopt, content("third"), 3).result,
               WriteResult::done)
@@ -181,16 +181,16 @@ TEST_P(RecordsContract, OfTwoWritersOneIsStale) {
 TEST_P(RecordsContract, APublishedVersionNeverChanges) {
     records_->create("kaja", "bolete", content("first", {blob("/a", "pixels")}), "", "", 1);
     const Written published =
-        records_->publish("kaja", "bolete", sha256_of("first"), "the first", 2);
+        records_->publish("kaja", "bolete", sha256_of("first"), {"the first"}, 2);
     EXPECT_EQ(published.result, WriteResult::done);
     EXPECT_EQ(published.number, 1);
     for (int i = 2; i <= most_versions; ++i) {
         const std::string text = "version " + std::to_string(i);
         ASSERT_EQ(records_->replace("kaja", "bolete", std::nullopt, content(text), i).result,
                   WriteResult::done);
-        ASSERT_EQ(records_->publish("kaja", "bolete", sha256_of(text), "", i).number, i);
+        ASSERT_EQ(records_->publish("kaja", "bolete", sha256_of(text), {}, i).number, i);
     }
-    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, "", 99).result,
+    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, {}, 99).result,
               WriteResult::too_many);
     records_ = backend_->open();
     const Version first = records_->version("kaja", "bolete", 1).value();
@@ -209,7 +209,7 @@ TEST_P(RecordsContract, PurgedDocumentsHaveNoBytesAndKeepTheirNames) {
     const std::string secret_pixels = "pixels that must not be found again 9c1e";
     records_->create("kaja", "bolete", content(secret_text, {blob("/a", secret_pixels)}), "", "",
                      1);
-    records_->publish("kaja", "bolete", std::nullopt, "", 2);
+    records_->publish("kaja", "bolete", std::nullopt, {}, 2);
     records_->create("sami", "other", content("other", {blob("/a", "shared pixels")}), "", "", 1);
     records_->create("kaja", "copy", content("copy", {blob("/a", "shared pixels")}), "", "", 1);
     EXPECT_TRUE(backend_->contains(secret_text));
@@ -225,7 +225,7 @@ TEST_P(RecordsContract, PurgedDocumentsHaveNoBytesAndKeepTheirNames) {
               WriteResult::taken);
     EXPECT_EQ(records_->replace("kaja", "bolete", std::nullopt, content("new"), 4).result,
               WriteResult::purged);
-    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, "", 4).result, WriteResult::purged);
+    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, {}, 4).result, WriteResult::purged);
     EXPECT_EQ(used("kaja"), 0);
     EXPECT_EQ(records_->owner("kaja")->documents, 0);
     EXPECT_EQ(records_->version("sami", "other", 0)->content.blobs.size(), 1U)
@@ -234,15 +234,48 @@ TEST_P(RecordsContract, PurgedDocumentsHaveNoBytesAndKeepTheirNames) {
     EXPECT_FALSE(backend_->contains(secret_pixels));
 }
 
+TEST_P(RecordsContract, FilesOfAVersionStayWithIt) {
+    records_->create("kaja", "bolete", content("first", {blob("/a", "pixels")}), "", "", 1);
+    const std::int64_t before = used("kaja");
+    const std::vector<Blob> files = {blob("0.glb", "many triangles"), blob("3.glb", "few")};
+    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, {"", files, 2}, 2).result,
+              WriteResult::stale)
+        << "files of another version than the next";
+    records_->set_limits("kaja", 10, before + 10);
+    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, {"", files, 1}, 2).result,
+              WriteResult::too_large);
+    EXPECT_EQ(used("kaja"), before);
+    records_->set_limits("kaja", 10, 1'000'000);
+    EXPECT_EQ(records_->publish("kaja", "bolete", std::nullopt, {"", files, 1}, 2).number, 1);
+    EXPECT_EQ(used("kaja"), before + 5 + 14 + 3) << "the text and the files";
+    EXPECT_EQ(records_->version("kaja", "bolete", 1)->content.blobs.size(), 1U)
+        << "files are not read with the text";
+    const std::vector<Blob> named = records_->files("kaja", "bolete", 1);
+    ASSERT_EQ(named.size(), 2U);
+    EXPECT_EQ(named[0].place, "0.glb");
+    EXPECT_EQ(named[1].sha256, sha256_of("few"));
+    const Blob file = records_->file("kaja", "bolete", 1, "3.glb").value();
+    EXPECT_EQ(std::string(file.bytes.begin(), file.bytes.end()), "few");
+    EXPECT_FALSE(records_->file("kaja", "bolete", 1, "1.glb"));
+    EXPECT_FALSE(records_->file("kaja", "bolete", 1, "/a")) << "an image of the text is no file";
+    EXPECT_TRUE(records_->files("kaja", "bolete", 0).empty());
+    records_->publish("kaja", "bolete", std::nullopt, {}, 3);
+    EXPECT_TRUE(records_->files("kaja", "bolete", 2).empty()) << "the next version has none";
+    records_->withdraw("kaja", "bolete", std::nullopt, true, 4);
+    EXPECT_FALSE(records_->file("kaja", "bolete", 1, "3.glb"));
+    EXPECT_EQ(used("kaja"), 0);
+    EXPECT_FALSE(backend_->contains("many triangles"));
+}
+
 TEST_P(RecordsContract, UnlistedDocumentsStayAndAreListedAgainWhenPublished) {
     records_->create("kaja", "bolete", content("first"), "", "", 1);
-    records_->publish("kaja", "bolete", std::nullopt, "", 2);
+    records_->publish("kaja", "bolete", std::nullopt, {}, 2);
     EXPECT_EQ(records_->list({}).size(), 1U);
     EXPECT_EQ(records_->withdraw("kaja", "bolete", std::nullopt, false, 3).result,
               WriteResult::done);
     EXPECT_TRUE(records_->list({}).empty());
     EXPECT_EQ(records_->version("kaja", "bolete", 1)->content.text, "first");
-    records_->publish("kaja", "bolete", std::nullopt, "", 4);
+    records_->publish("kaja", "bolete", std::nullopt, {}, 4);
     EXPECT_EQ(records_->list({}).size(), 1U);
 }
 
@@ -252,7 +285,7 @@ TEST_P(RecordsContract, ListsContainWhatTheReaderMaySee) {
                          name == std::string("beta") ? "~sami.cap@2" : "", "", 1);
     records_->create("sami", "cap", content("Cap"), "", "", 1);
     for (const char* const name : {"alpha", "beta", "gamma_cap"})
-        records_->publish("kaja", name, std::nullopt, "", 2);
+        records_->publish("kaja", name, std::nullopt, {}, 2);
     const auto names = [&](const Listing& listing) {
         std::vector<std::string> found;
         for (const StoredDocument& document : records_->list(listing))
@@ -294,9 +327,9 @@ TEST_P(RecordsContract, ChangesTellOthersWhatIsPublished) {
     const std::unique_ptr<Records> other = backend_->open();
     records_->create("kaja", "bolete", content("first"), "", "", 1);
     EXPECT_TRUE(other->changes(0).empty()) << "drafts are no news";
-    records_->publish("kaja", "bolete", std::nullopt, "", 2);
+    records_->publish("kaja", "bolete", std::nullopt, {}, 2);
     records_->create("sami", "cap", content("cap"), "", "", 1);
-    records_->publish("sami", "cap", std::nullopt, "", 2);
+    records_->publish("sami", "cap", std::nullopt, {}, 2);
     std::vector<Change> changes = other->changes(0);
     ASSERT_EQ(changes.size(), 2U);
     EXPECT_EQ(changes[0].name, "bolete");
@@ -397,7 +430,7 @@ TEST_P(RecordsContract, TheBytesOfAnOwnerAreThoseOfTheDocuments) {
                 break;
             case 5:
             case 6:
-                records_->publish(owner, name, std::nullopt, "", step);
+                records_->publish(owner, name, std::nullopt, {}, step);
                 break;
             default:
                 if (below(6) == 0) records_->withdraw(owner, name, std::nullopt, true, step);

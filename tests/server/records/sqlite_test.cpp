@@ -61,7 +61,7 @@ TEST_F(SqliteFile, ThePublishedIsProtectedByTheDatabaseItself) {
     const std::unique_ptr<Records> records = open_sqlite_records(file_);
     records->add_owner("kaja", 1);
     records->create("kaja", "bolete", {"text", {}, 1, "", "", {}}, "", "", 1);
-    records->publish("kaja", "bolete", std::nullopt, "", 1);
+    records->publish("kaja", "bolete", std::nullopt, {}, 1);
     SQLite::Database database(file_.string(), SQLite::OPEN_READWRITE);
     EXPECT_EQ(database.exec("UPDATE version SET text = 'other' WHERE number = 0"), 1);
     EXPECT_THROW(database.exec("UPDATE version SET text = 'other' WHERE number = 1"),
