@@ -198,6 +198,15 @@ constexpr Route pages[] = {
      }},
     {.kind = RouteKind::page,
      .method = "GET",
+     .pattern = "/breed",
+     .id = "breed",
+     .summary = "The page that breeds species of two parents.",
+     .media_type = html,
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->page(call.request, "breed.html");
+     }},
+    {.kind = RouteKind::page,
+     .method = "GET",
      .pattern = "/assets/{name}",
      .id = "asset",
      .summary = "A file of the viewer page.",

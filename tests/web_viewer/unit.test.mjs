@@ -12,6 +12,12 @@ const { outputFiles } = packages("esbuild").buildSync({
     stdin: {
         contents: [
             "arcs",
+            "breed/locks",
+            "breed/offspring",
+            "breed/parents",
+            "breed/pedigree",
+            "breed/pedigree_address",
+            "breed/tree_rows",
             "camera",
             "close_ups",
             "depth_of_field",
@@ -1504,4 +1510,124 @@ test("the file of a species is opened on paper, and what is none is refused by i
         ["Height", "Cap", "Method"],
     );
     assert.match(await (await file.picture()).text(), /^<svg /);
+});
+
+// --- Breeding ---
+
+/** Returns a pedigree with three generations: a child of two founders, and two children of it. */
+function threeGenerations() {
+    const pedigree = new page.Pedigree();
+    for (const [key, name] of [["boletus_edulis", "Cep"], ["amanita_muscaria", "Fly agaric"]])
+        pedigree.add({ key, name, family: "swept" });
+    const genes = { seed: 3, share: 0.25, mutation: 0.4, lock: ["surface.cap", "ring"] };
+    const first = pedigree.addChild({ a: "boletus_edulis", b: "amanita_muscaria", genes }).key;
+    const alone = pedigree.addCouple(first, first, { ...genes, seed: 10 });
+    const second = pedigree.addChild({ a: first, b: first, genes: { ...genes, seed: 12 } }).key;
+    const back = pedigree.addCouple(second, "amanita_muscaria", { ...genes, seed: 4294967290 });
+    const other = pedigree.addCouple(first, "amanita_muscaria", genes);
+    return { pedigree, first, second, alone, back, other };
+}
+
+test("the address of a couple has all that its children come from", () => {
+    const { pedigree, back } = threeGenerations();
+    const query = page.coupleQuery(pedigree, back);
+    assert.match(query, /^[?&=.,;\w-]+$/, "nothing in it is escaped");
+    const read = page.readCouple(query);
+    const elsewhere = new page.Pedigree();
+    for (const birth of read.births) elsewhere.addChild(birth);
+    const couple = elsewhere.addCouple(read.a, read.b, read.genes);
+    assert.equal(couple.key, back.key);
+    assert.deepEqual({ ...couple.genes }, { ...back.genes, lock: ["ring", "surface.cap"] });
+    assert.equal(page.coupleQuery(elsewhere, couple), query);
+    assert.equal(page.readCouple("?species=x"), undefined);
+    const library = page.readCouple("?a=~me.kid@3&b=own-0123456789a");
+    assert.deepEqual([library.a, library.b], ["~me.kid@3", "own-0123456789a"]);
+    for (const [wrong, said] of [
+        ["?a=.2&line=x,y,1,0,0", /line has no child \.2/],
+        ["?a=x&seed=4294967296", /seed '4294967296'/],
+        ["?a=x&share=1.5", /share '1\.5'/],
+        ["?a=x&mutation=much", /mutation 'much'/],
+        ["?a=x&lock=a%20b", /lock 'a b'/],
+        ["?a=../x", /'\.\.\/x'|no child/],
+        ["?a=x&b=y%2F..", /'y\/\.\.' is no species/],
+    ])
+        assert.throws(() => page.readCouple(wrong), said, wrong);
+});
+
+test("a line that is too long for an address has none", () => {
+    const { pedigree, back } = threeGenerations();
+    let [a, depth] = [back.a, 0];
+    for (; depth < 400; ++depth) {
+        a = pedigree.addChild({ a, b: a, genes: { ...back.genes, seed: depth } }).key;
+        const query = page.coupleQuery(pedigree, pedigree.addCouple(a, a, back.genes));
+        if (query === undefined) break;
+        assert.ok(query.length <= page.mostLetters);
+    }
+    assert.ok(depth > 60 && depth < 400, `${depth} generations have an address`);
+});
+
+test("children are named by generation and seed, and seeds go round", () => {
+    const { pedigree, first, second, alone, back } = threeGenerations();
+    assert.equal(pedigree.name(first), "F1·3");
+    assert.equal(pedigree.name(second), "F2·12");
+    assert.equal(pedigree.coupleName(alone), "F1·3 alone");
+    assert.equal(pedigree.descent(back), "of F2·12 × Fly agaric");
+    assert.equal(pedigree.get(second).family, "swept");
+    const seeds = page.seedsFrom(4294967290);
+    assert.deepEqual(seeds.slice(4), [4294967294, 4294967295, 0, 1, 2]);
+    assert.equal(page.nextSeeds(4294967290), 3);
+    const same = page.keyOfBirth({ a: "x", b: "y", genes: { seed: 1, share: 0, mutation: 0, lock: ["b", "a", "b"] } });
+    assert.equal(same, page.keyOfBirth({ a: "x", b: "y", genes: { seed: 1, share: 0, mutation: 0, lock: ["a", "b"] } }));
+    const hashes = new Set(Array.from({ length: 20000 }, (_, index) => page.hashOf(`x,y,${index},0.5,0.2,`)));
+    assert.equal(hashes.size, 20000);
+});
+
+test("the family tree has a row for each couple, and branches in lanes of their own", () => {
+    const { pedigree } = threeGenerations();
+    pedigree.addCouple("amanita_muscaria", "amanita_muscaria", page.firstGenes);
+    const rows = page.treeRows(pedigree).map(({ couple, lane, from, level }) => [pedigree.coupleName(couple), lane, from, level]);
+    assert.deepEqual(rows, [
+        ["Cep × Fly agaric", 0, undefined, 1],
+        ["F1·3 alone", 0, 0, 2],
+        ["F2·12 × Fly agaric", 0, 1, 3],
+        ["F1·3 × Fly agaric", 1, 0, 2],
+        ["Fly agaric alone", 0, undefined, 1],
+    ]);
+});
+
+test("children of species of the service have an address, others are posted whole", () => {
+    const { pedigree, first, back } = threeGenerations();
+    const { birth } = pedigree.get(first);
+    const { address, body } = page.requestFor(pedigree, birth, "glb", page.draftOptions);
+    assert.equal(
+        address,
+        "v1/offspring/boletus_edulis/amanita_muscaria.glb?seed=3&share=0.25&mutation=0.4&lock=surface.cap,ring&lod=2&textures=none&variation=0",
+    );
+    assert.equal(body, undefined);
+    assert.throws(() => page.requestFor(pedigree, back, "json"), /F2·12 is not in this browser/);
+    pedigree.add({ key: back.a, text: '{"id":"bred"}' });
+    const posted = page.requestFor(pedigree, back, "json");
+    assert.equal(posted.address, "v1/offspring.json");
+    const order = JSON.parse(posted.body);
+    assert.deepEqual([order.a, order.b, order.seed], [{ id: "bred" }, "amanita_muscaria", 4294967290]);
+    assert.equal(page.workOf("queue;dur=0.5, build;dur=2"), 2.5);
+});
+
+test("parts that can be locked come from the schema, those of the surface one by one", () => {
+    const part = (title) => ({ title, properties: { x: { type: "number" } } });
+    const model = {
+        oneOf: [
+            { properties: { form: { const: "swept" }, silhouette: part("silhouette") } },
+            { properties: { form: { const: "branched" }, limbs: part("limbs") } },
+        ],
+        properties: { ring: part("ring"), surface: { title: "surface", properties: { cap: part("cap"), stem: part("stem") } } },
+    };
+    const schema = { properties: { spread: part("spread"), stages: { items: { properties: { model } } } } };
+    const names = (family) => page.locksOf(schema, family).map(({ label, locks }) => [label, locks.map(({ name }) => name)]);
+    assert.deepEqual(names("swept"), [
+        ["Shape", ["silhouette", "ring"]],
+        ["Surface", ["surface.cap", "surface.stem"]],
+        ["Whole", ["size", "stages", "spread"]],
+    ]);
+    assert.deepEqual(names("branched")[0], ["Shape", ["limbs", "ring"]]);
 });

@@ -1,5 +1,5 @@
-// The navigation at the top: one link per product, one to the morph editor, and one to the page of
-// the designer.
+// The navigation at the top: one link per product, one to the morph editor, and one each to the pages
+// of the designer and of breeding.
 import { byId, make } from "./dom";
 import { fewestMembers, mostMembers, readShares, sharesText } from "./mix";
 import { mushrooms, products, type Product } from "./products";
@@ -30,6 +30,7 @@ export class ModeLinks {
             if (canMorph) byId("modes").append(this.morphLink);
         }
         byId("modes").append(make("a", { id: "mode-designer", href: "editor" }, "From a photo"));
+        byId("modes").append(make("a", { id: "mode-breed", href: "breed" }, "Breed"));
         this.morphLink.hidden = !product.canMorph;
         this.mark(this.link(product));
     }

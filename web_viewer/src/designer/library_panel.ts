@@ -13,8 +13,8 @@ import {
 } from "./library";
 import type { Species } from "./service";
 
-const storageKey = "sporeprint-token";
-const linkKey = "sporeprint-library-draft";
+export const storageKey = "sporeprint-token";
+export const linkKey = "sporeprint-library-draft";
 
 /** Time after the last change until a species of the library is saved, milliseconds. */
 const saveDelayMs = 2000;

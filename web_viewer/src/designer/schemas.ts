@@ -11,7 +11,7 @@ export interface DocumentSchema extends Omit<Schema, "default" | "properties"> {
     properties?: Record<string, DocumentSchema>;
 }
 
-interface Description {
+export interface Description {
     components: {
         schemas: Record<string, DocumentSchema>;
         requestBodies: Record<
@@ -23,7 +23,7 @@ interface Description {
 
 let description: Promise<Description> | undefined;
 
-function described(): Promise<Description> {
+export function described(): Promise<Description> {
     description ??= getJson<Description>("openapi.json");
     // What has failed is tried again the next time.
     description.catch(() => (description = undefined));
