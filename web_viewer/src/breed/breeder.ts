@@ -5,7 +5,7 @@ import { hasLibrary } from "../designer/library";
 import { described, speciesSchema, type DocumentSchema } from "../designer/schemas";
 import { byId, make } from "../dom";
 import { asRequestFailed, getJson, RequestFailed } from "../http";
-import { parseModel } from "../model";
+import { disposeModel, parseModel } from "../model";
 import { ProblemBox } from "../problem_box";
 import { groupsOf, type Field, type Schema, type Value } from "../schema";
 import { announce } from "../status_line";
@@ -113,7 +113,9 @@ export class Breeder {
     private schema: DocumentSchema | undefined;
     private lockFamily: string | undefined;
     private current: Couple | undefined;
-    private loading: AbortController | undefined;
+    /** Ends what is done for the couple that is shown: loading, then refining. */
+    private showing: AbortController | undefined;
+    private isLoading = false;
     /** Index of the child that the pointer or the focus is on. */
     private considered = -1;
     /** The settings were changed while children of older ones are on their way. */
@@ -297,11 +299,12 @@ export class Breeder {
         const { current, pedigree } = this;
         if (!current) return;
         this.current = pedigree.addCouple(current.a, current.b, { ...current.genes, ...genes });
-        if (isDragged && this.loading) {
+        if (isDragged && this.isLoading) {
             this.stale = true;
             return;
         }
-        void this.show(this.current, step);
+        // The address follows once the control is released: browsers refuse many writes in a short time.
+        void this.show(this.current, isDragged ? "none" : step);
     }
 
     /** Makes a child a parent of the next nine. */
@@ -363,10 +366,11 @@ export class Breeder {
      *
      *  step  what becomes of the browser's history */
     private async show(couple: Couple, step: "push" | "replace" | "none"): Promise<void> {
-        this.loading?.abort();
-        const loading = new AbortController();
-        const { signal } = loading;
-        this.loading = loading;
+        this.showing?.abort();
+        const showing = new AbortController();
+        const { signal } = showing;
+        this.showing = showing;
+        this.isLoading = true;
         this.stale = false;
         this.began = performance.now();
         this.current = couple;
@@ -385,7 +389,7 @@ export class Breeder {
             await this.load(births, signal);
         } catch (error) {
             if (signal.aborted) return;
-            this.loading = undefined;
+            this.isLoading = false;
             this.state = "failed";
             this.showFailure(asRequestFailed(error, "The children cannot be bred"));
             return;
@@ -393,7 +397,7 @@ export class Breeder {
         if (signal.aborted) return;
         this.drawPortrait();
         this.storeLine(couple);
-        if (this.stale && this.current) return this.show(this.current, "replace");
+        if (this.stale && this.current) return this.show(this.current, "none");
         await this.refine(signal);
     }
 
@@ -433,7 +437,7 @@ export class Breeder {
         };
         performance.measure("breed: service", { start: this.began, end: arrived });
         performance.measure("breed: page", { start: arrived, end });
-        this.loading = undefined;
+        this.isLoading = false;
         this.state = "ready";
         this.fetchAhead();
         const { current, pedigree, notice } = this;
@@ -444,35 +448,28 @@ export class Breeder {
 
     private async put(index: number, file: ChildFile, stage: "draft" | "final", signal: AbortSignal): Promise<void> {
         const model = await parseModel(file.bytes.slice(0), file.from);
-        if (!signal.aborted) this.grid.put(index, model, stage, stage === "final");
+        if (signal.aborted) disposeModel(model);
+        else this.grid.put(index, model, stage, stage === "final");
     }
 
     /** Replaces the drafts by final models, one by one, until something else is wanted. */
     private async refine(signal: AbortSignal): Promise<void> {
-        // Any later wish has a signal of its own.
-        this.refining?.abort();
-        const refining = new AbortController();
-        this.refining = refining;
         const births = this.children.map(({ birth }) => birth);
-        const isOver = (): boolean => signal.aborted || refining.signal.aborted || !!this.loading;
         await new Promise((resolve) => setTimeout(resolve, refineDelayMs));
-        for (let index = 0; index < births.length && !isOver(); ++index) {
+        for (const [index, birth] of births.entries()) {
+            if (signal.aborted) return;
             try {
-                const file = await fetchFile(this.pedigree, births[index]!, finalOptions, refining.signal);
-                if (!isOver()) await this.put(index, file, "final", refining.signal);
+                await this.put(index, await fetchFile(this.pedigree, birth, finalOptions, signal), "final", signal);
             } catch {
                 // The draft stays.
             }
             // Between two models the page can do what is wanted.
             await new Promise((resolve) => setTimeout(resolve, 0));
         }
-        if (!isOver()) {
-            document.documentElement.dataset["refined"] = "true";
-            await this.drawMissing(refining.signal);
-        }
+        if (signal.aborted) return;
+        document.documentElement.dataset["refined"] = "true";
+        await this.drawMissing(signal);
     }
-
-    private refining: AbortController | undefined;
 
     /** Draws small pictures of species in the tree that have none, such as those of an address. */
     private async drawMissing(signal: AbortSignal): Promise<void> {
@@ -487,8 +484,9 @@ export class Breeder {
                 const same = { a: key, b: key, genes: { ...firstGenes, share: 0, mutation: 0 } };
                 const { bytes, from } = await fetchFile(pedigree, same, draftOptions, signal);
                 const model = await parseModel(bytes, from);
+                if (!signal.aborted) pedigree.add({ key, picture: this.grid.portraitOf(model) });
+                disposeModel(model);
                 if (signal.aborted) return;
-                pedigree.add({ key, picture: this.grid.portraitOf(model) });
                 void this.store.save([pedigree.get(key)], []);
                 this.showWords();
             } catch {

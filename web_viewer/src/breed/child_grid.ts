@@ -315,7 +315,9 @@ export class ChildGrid {
             { type: "button", class: "keep-it", "aria-label": `Save child ${index + 1} of 9`, title: "Save this one (S)" },
             icon,
         );
-        save.addEventListener("click", () => this.events.save(index));
+        save.addEventListener("click", () => {
+            if (this.isShown(index)) this.events.save(index);
+        });
         const item = make("li", { class: "cell" }, button, caption, message, save);
         return { item, button, caption, message, label: "", retired: {} };
     }
@@ -353,15 +355,21 @@ export class ChildGrid {
             };
             const place = places[event.key];
             if (place !== undefined) this.focus(place);
-            else if (event.key === "s" || event.key === "S") this.events.save(index);
+            else if ((event.key === "s" || event.key === "S") && this.isShown(index)) this.events.save(index);
             else return;
             event.preventDefault();
         });
         this.connectDrags(list);
         list.addEventListener("click", ({ target }) => {
             const index = this.indexOf(target);
-            if (index >= 0) this.events.chosen(index);
+            if (this.isShown(index)) this.events.chosen(index);
         });
+    }
+
+    /** Returns false for a child that is on its way: the one before it is seen still. */
+    private isShown(index: number): boolean {
+        const cell = this.cells[index];
+        return !!cell?.shown && !cell.item.classList.contains("pending");
     }
 
     /** A drag turns all children; a shorter one remains a click. */
