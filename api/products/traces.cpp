@@ -67,6 +67,7 @@ Value trace_body(const SpeciesFromPhoto& found, const Atlas& atlas) {
     Value angles = Value::object();
     angles.set("lean_deg", hundredths(traced.lean_deg))
         .set("bend_deg", hundredths(traced.bend_deg));
+    angles.set("pitch_deg", traced.pitch_deg ? Value(hundredths(*traced.pitch_deg)) : Value());
     Value ring;
     if (traced.ring) {
         ring.set("height_m", rounded(traced.ring->height_m, 1e-6));
@@ -268,10 +269,13 @@ void add_schemas(Value& schemas, const Atlas&) {
                         "the right where positive. Outline, marks and form, sent back, "
                         "give the same shape without a cut.")},
              {"angles",
-              described(objects({{"lean_deg", number}, {"bend_deg", number}}),
-                        "Of the line from the foot to the top of the stem, to the right where "
-                        "positive; between the directions of the axis at the foot and at the "
-                        "cap.")},
+              described(
+                  objects(
+                      {{"lean_deg", number}, {"bend_deg", number}, {"pitch_deg", or_null(number)}}),
+                  "Of the line from the foot to the top of the stem, to the right where "
+                  "positive; between the directions of the axis at the foot and at the "
+                  "cap; of the camera above the horizon, null where it cannot be told from "
+                  "how far the margin of the cap hangs before the stem.")},
              {"asymmetry_pct",
               described(number, "Half the mean distance between both sides, in % of the height.")},
              {"error_pct", described(number,
@@ -291,7 +295,9 @@ void add_schemas(Value& schemas, const Atlas&) {
              {"form", described(one_of<trace::Form>(1), "How the mushroom is built.")},
              {"method",
               described(one_of<trace::TraceMethod>(0),
-                        "fitted; straightened: the stem would fold as it is bent on the "
+                        "refined: what grows has the contour of the photograph, by comparing "
+                        "both; fitted: the mean of both sides, which is nearer to the contour; "
+                        "straightened: the stem would fold as it is bent on the "
                         "photograph; simplified: the outline would cross itself; template: neither "
                         "can be grown, so it is the template's, stretched to the same "
                         "heights and widths.")},

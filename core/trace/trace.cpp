@@ -15,6 +15,7 @@
 #include "core/trace/fit.h"
 #include "core/trace/marks.h"
 #include "core/trace/profile.h"
+#include "core/trace/refine.h"
 
 namespace sporeprint::trace {
 
@@ -226,6 +227,71 @@ Traced with_shape(const FoundOutline& found_outline, const MeasuredOutline& on,
     return found;
 }
 
+/// Returns a profile on an axis that follows the stem and the cap, from the cap's turn as it was measured or from
+/// the line between its margins, whichever is more alike.
+std::optional<RefinedProfile> refined_axis(const Profile& profile, const MeasuredOutline& on,
+                                           const TraceParams& params) {
+    constexpr double alike_deg = 3.0;
+    auto best = refined_profile(profile, on.axis, on.marks, on.height, LowerEdge::face);
+    const auto &left = on.marks.sides[0], &right = on.marks.sides[1];
+    const CapFrame straight(on.axis, on.marks.stem_top, 0.0);
+    const glm::dvec2 across =
+        straight.local(right.points[right.margin]) - straight.local(left.points[left.margin]);
+    Marks level = on.marks;
+    level.cap_turn_deg = arc_tangent(-across.y, across.x) * (180.0 / pi);
+    if (std::abs(level.cap_turn_deg - on.marks.cap_turn_deg) < alike_deg) return best;
+    const Profile measured_level = profile_of(on.contour, on.axis, level, on.height, params.hollow);
+    auto other = refined_profile(measured_level, on.axis, level, on.height, LowerEdge::face);
+    return other && (!best || other->apart < best->apart) ? other : best;
+}
+
+/// Replaces a trace by one whose drawing is nearer to the contour that was measured, if there is one.
+void refine(Traced& best, const FoundOutline& found, const MeasuredOutline& on,
+            const Profile& profile, const TraceParams& params) {
+    // What is measured counts more where both are nearly as near. A lower face that hangs looks much like the near
+    // half of a margin that is seen from above.
+    constexpr double least_gain = 0.0008, of_pitch = 0.86;  // of the height, and a factor
+    const auto distance_of = [&](const Traced& made) {
+        return seen_distance(made.shape, made.pitch_deg.value_or(0.0), on.marks, on.height,
+                             params.height_m);
+    };
+    double least = distance_of(best) - least_gain;
+    // First the axis, then what is measured along it.
+    const auto first = refined_axis(profile, on, params);
+    if (!first) return;
+    const auto marks_on = [&](const RefinedProfile& one) {
+        Marks marks = on.marks;
+        marks.stem_top = one.stem_top;
+        marks.cap_turn_deg = 0.0;
+        return marks;
+    };
+    const Marks again = marks_at(on.marks.sides, first->axis, on.height, on.marks.form, 0.0);
+    const Profile measured_again =
+        profile_of(on.contour, first->axis, again, on.height, params.hollow);
+    for (const LowerEdge edge : {LowerEdge::face, LowerEdge::margin}) {
+        const auto refined = refined_profile(measured_again, first->axis, again, on.height, edge);
+        if (!refined) continue;
+        const Marks marks = marks_on(*refined);
+        FittedShape shape;
+        try {
+            // What is seen from above looks less high.
+            shape = fitted_shape(refined->profile, refined->axis, marks,
+                                 on.height / cosine(radians(refined->pitch_deg)), params.height_m);
+            static_cast<void>(MorphSet({{shape.silhouette, params.height_m, 0, 0.6}}));
+        } catch (const Impossible&) {
+            continue;
+        }
+        Traced made = with_shape(found, on, refined->profile, shape, params);
+        made.asymmetry = best.asymmetry;
+        if (made.method == TraceMethod::fitted) made.method = TraceMethod::refined;
+        if (edge == LowerEdge::margin) made.pitch_deg = refined->pitch_deg;
+        const double distance = distance_of(made);
+        if (distance >= (edge == LowerEdge::margin ? of_pitch : 1.0) * least) continue;
+        least = distance;
+        best = std::move(made);
+    }
+}
+
 }  // namespace
 
 Traced on_copy(Traced traced, double factor) {
@@ -253,6 +319,7 @@ Traced traced(const FoundOutline& found, const TraceParams& params) {
     const FittedProfile fitted = fitted_profile(on.contour, on.axis, on.marks, on.height, params);
     Traced made = with_shape(found, on, fitted.profile, fitted.shape, params);
     if (fitted.has_plain_stem) made.method = TraceMethod::simplified;
+    if (found.form == Form::capped) refine(made, found, on, fitted.profile, params);
     return made;
 }
 

@@ -21,6 +21,7 @@ function leaning(value: number): string {
 const methods: Readonly<Record<string, string>> = {
     fitted: "outline and axis as measured",
     opened: "from the file of a species",
+    refined: "what grows has the contour of the photograph",
     simplified: "with a plain stem, because the outline would cross itself",
     straightened: "bends less than on the photograph, because the stem would fold",
 };
