@@ -595,7 +595,8 @@ std::optional<RefinedProfile> refined_profile(const Profile& profile, const Trac
 
 double seen_distance(const Swept& shape, double pitch_deg, const Marks& marks, double height,
                      double height_m) {
-    const auto [up_sine, foreshortened] = sine_cosine(radians(pitch_deg));
+    const SineCosine pitch = sine_cosine(radians(pitch_deg));
+    const double up_sine = pitch.sine, foreshortened = pitch.cosine;
     const double unit = height_m * foreshortened;  // what looks as long as the mushroom is high
     const Outline outline = Outline::unproven(shape.silhouette, "/silhouette");
     const std::vector<glm::dvec3> tangents = AxisCurve(shape.axis).tangents();
