@@ -61,12 +61,14 @@ leaves=$(grep -cE '^[0-9a-f]{16} .* leaf/' "$reference" || true)
 plants=$(grep -cE '^[0-9a-f]{16} .* tree/' "$reference" || true)
 colonies=$(grep -cE '^[0-9a-f]{16} .* colony/' "$reference" || true)
 pictures=$(grep -cE '^[0-9a-f]{16} .* picture/' "$reference" || true)
+traces=$(grep -cE '^[0-9a-f]{16} .* trace/' "$reference" || true)
 all=$(grep -cE '^[0-9a-f]{16} ' "$reference" || true)
-mushrooms=$((all - leaves - plants - colonies - pictures))
+mushrooms=$((all - leaves - plants - colonies - pictures - traces))
 found="$mushrooms of $requests random mushrooms, $pictures pictures, $leaves leaves, $plants trees, \
-$colonies colonies"
+$colonies colonies, $traces traces"
 if [ "$mushrooms" -eq "$requests" ] && [ "$pictures" -eq $((requests / 5)) ] &&
-    [ "$leaves" -ge $((requests / 10)) ] && [ "$plants" -ge $((requests / 20)) ] && [ "$colonies" -ge $((requests / 20)) ]; then
+    [ "$leaves" -ge $((requests / 10)) ] && [ "$plants" -ge $((requests / 20)) ] && [ "$colonies" -ge $((requests / 20)) ] &&
+    [ "$traces" -eq $((requests / 10)) ]; then
     verdict ok "$found"
 else
     verdict bad "$found"

@@ -3,7 +3,7 @@
 //   hashes check FILE             compares the hash of each golden request with the one in FILE
 //   hashes bless FILE             writes the golden hashes of this build to FILE
 //   hashes print [COUNT] [SIMD]   prints the hashes of COUNT random mushrooms, a fifth as many leaves and colonies, and a
-//                                 tenth as many trees, computed with one instruction set; requests that core refuses are
+//                                 tenth as many trees and traces, computed with one instruction set; requests that core refuses are
 //                                 printed with the refusal
 //   hashes --simd-names           prints the instruction sets of this processor
 //
@@ -46,6 +46,8 @@
 #include "core/params/query.h"
 #include "core/params/value.h"
 #include "core/render/render.h"
+#include "core/trace/cut.h"
+#include "core/trace/trace.h"
 #include "tests/support/atlas.h"
 
 namespace {
@@ -834,7 +836,50 @@ void print_colony(std::uint32_t number, const Atlas& atlas) {
     }
 }
 
-/// Prints the hashes of `count` random mushrooms and of leaves, trees and colonies.
+/// Returns a noisy picture of a cap on a stem before a darker ground, by whole numbers alone.
+Picture drawn_picture(Random& random) {
+    constexpr int side = 480;
+    const auto between = [&](int from, int to) {
+        return from + static_cast<int>(random.bits() % static_cast<std::uint32_t>(to - from + 1));
+    };
+    const int stem = between(18, 60), top = between(180, 260), wide = between(100, 190),
+              high = between(60, 130), lean = between(-40, 40);
+    Picture photo{side, side, {}};
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int u = x - side / 2 - lean * (420 - y) / side, v = y - top;
+            const bool is_cap =
+                v <= 0 && u * u * high * high + v * v * wide * wide <= wide * wide * high * high;
+            const bool is_stem = v > 0 && y < 420 && u > -stem && u < stem;
+            const int light = is_cap ? 170 : is_stem ? 200 : 90;
+            for (const int tint : {is_cap ? 40 : 0, is_stem ? 10 : 20, is_cap ? -90 : -20})
+                photo.rgb.push_back(static_cast<std::uint8_t>(light + tint + between(-30, 30)));
+        }
+    return photo;
+}
+
+/// Prints the line of a picture that is cut out and traced, or that it cannot be.
+void print_trace(std::uint32_t number) {
+    Random random(number, 0x74726163);
+    const Picture photo = drawn_picture(random);
+    trace::Gesture gesture;
+    gesture.axis = {{240.0, 410.0}, {240.0, 300.0}, {235.0, 190.0}};
+    const std::string request = "trace/" + std::to_string(number);
+    try {
+        const trace::Mask mask = trace::cut_out(photo, gesture);
+        Bytes bytes(mask.inside.begin(), mask.inside.end());
+        trace::TraceParams params;
+        params.form = trace::Form::capped;
+        for (const char letter : dump(write(trace::traced(mask, gesture, params).shape)))
+            bytes.push_back(static_cast<std::uint8_t>(letter));
+        const Body body{Slice(std::make_shared<const Bytes>(std::move(bytes)))};
+        std::printf("%s %8zu  %s\n", hash_of(body).c_str(), size_of(body), request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
+/// Prints the hashes of `count` random mushrooms and of leaves, trees, colonies and traces.
 ///
 /// throws  GenerationError if hardly any of the random requests can be grown
 void print(std::uint32_t count) {
@@ -846,6 +891,7 @@ void print(std::uint32_t count) {
     for (std::uint32_t number = 0; number < count / 5; ++number) print_leaf(number);
     for (std::uint32_t number = 0; number < count / 10; ++number) print_tree(number);
     for (std::uint32_t number = 0; number < count / 5; ++number) print_colony(number, *atlas);
+    for (std::uint32_t number = 0; number < count / 10; ++number) print_trace(number);
 }
 
 int usage() {

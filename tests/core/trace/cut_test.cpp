@@ -80,6 +80,39 @@ TEST(Cut, OfADiscHasItsAreaAtEverySize) {
     }
 }
 
+/// Returns a disc under noise, by whole numbers alone.
+Picture noisy_disc(int side, std::uint32_t seed) {
+    Picture photo = disc(side);
+    std::uint32_t state = seed;
+    for (std::uint8_t& value : photo.rgb) {
+        state = state * 1664525U + 1013904223U;
+        value = static_cast<std::uint8_t>((3U * value + (state >> 24U)) / 4U);
+    }
+    return photo;
+}
+
+/// Returns the FNV-1a hash of the pixels of a mask.
+std::uint64_t hash_of(const trace::Mask& mask) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const std::uint8_t pixel : mask.inside) hash = (hash ^ pixel) * 0x100000001b3U;
+    return hash;
+}
+
+TEST(Cut, IsTheSameByEveryCompiler) {
+    // Where the cut is changed on purpose, so are these.
+    const std::vector<std::uint64_t> hashes = {11723727663604739837U, 9944585835144833713U,
+                                               13725892264572733425U};
+    for (std::size_t i = 0; i < hashes.size(); ++i) {
+        const double side = 240.0 + 70.0 * static_cast<double>(i);
+        const trace::Gesture gesture{
+            {{0.5 * side, 0.7 * side}, {0.48 * side, 0.3 * side}}, {}, {}, {}, {}};
+        const Picture photo = noisy_disc(static_cast<int>(side), static_cast<std::uint32_t>(7 + i));
+        const trace::Mask mask = trace::cut_out(photo, gesture);
+        EXPECT_EQ(hash_of(mask), hashes[i]) << side;
+        EXPECT_NEAR(static_cast<double>(mask.area()) / (side * side), 3.14159 / 16.0, 0.02);
+    }
+}
+
 TEST(Cut, LeavesOutWhatIsDroppedAndWhatIsBeyondTheFrame) {
     const double side = 300.0;
     trace::Gesture gesture{{{150.0, 200.0}, {150.0, 100.0}}, {}, {}, {}, {}};
