@@ -1,8 +1,10 @@
 // Tests of the designer's library in headless Chromium, against a server with --library (SPOREPRINT_URL) and a
 // token of it (SPOREPRINT_TOKEN).
 import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
+import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, serverUrl } from "./support.mjs";
+import { galleryComplete, launchBrowser, logEvents, ready, serverUrl } from "./support.mjs";
 
 const base = serverUrl({ everySpecies: true });
 const token = process.env.SPOREPRINT_TOKEN ?? "";
@@ -38,6 +40,20 @@ async function save(page, name) {
     await page.locator("#library-name").fill(name);
     await page.locator("#library-save").click();
     await page.locator("#library-state", { hasText: "saved" }).waitFor();
+}
+
+/** Stores a built-in species in the library under another name; publishes it, if that is wanted. */
+async function stored(id, name, { published = true } = {}) {
+    const species = await (await fetch(`${base}/v1/species/${id}`)).json();
+    const facts = { ...species.facts, common_name: `Own ${name}` };
+    const body = JSON.stringify({ ...species, id: name, facts });
+    const made = await fetch(`${base}/v1/library`, { method: "POST", headers, body });
+    assert.equal(made.status, 201, await made.clone().text());
+    if (!published) return;
+    const { draft } = await made.json();
+    const options = { method: "POST", headers: { ...headers, "If-Match": draft }, body: "{}" };
+    const { status } = await fetch(`${base}/v1/library/~me.${name}/publish`, options);
+    assert.equal(status, 201);
 }
 
 /** Moves focus with Tab until an element has it. */
@@ -123,5 +139,140 @@ test("species of the library are listed and opened again; a wrong token is named
     assert.equal(await page.locator("#library-name").inputValue(), "cep_again");
     await page.locator("#library-leave").click();
     assert.equal(await page.evaluate((text) => JSON.stringify({ ...sessionStorage, ...localStorage }).includes(text), token), false);
+    await page.context().close();
+});
+
+test("the viewer shows what is published: by address, in the gallery and in mixes", async () => {
+    await stored("boletus_edulis", "cep_in_lists");
+    const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1100, height: 700 } });
+    const page = await context.newPage();
+    page.setDefaultTimeout(60_000);
+    const log = logEvents(page);
+    await page.goto(`${base}/?species=~me.cep_in_lists&lod=3&textures=none`);
+    await ready(page);
+    assert.equal(new URL(page.url()).searchParams.get("species"), "~me.cep_in_lists@1");
+    assert.equal(await page.locator("#common-name").textContent(), "Own cep_in_lists");
+    await galleryComplete(page);
+    const own = page.locator("#gallery [data-species='~me.cep_in_lists@1']");
+    assert.equal(await own.getAttribute("aria-pressed"), "true");
+    assert.equal(await own.locator("img").count(), 1);
+    await page.locator("#find").fill("cep_in_lists");
+    assert.equal(await page.locator("#gallery button[data-species]:visible").count(), 1);
+    await page.locator("#find").fill("");
+    await page.locator("#mode-morph").click();
+    await page.locator("#gallery [data-species='russula_vinosa']").click();
+    await ready(page);
+    assert.match(new URL(page.url()).searchParams.get("morph"), /^~me\.cep_in_lists@1:0\.334,.*russula_vinosa:0\.333$/);
+    await page.goto(`${base}/?species=russula_vinosa:0.5,~me.cep_in_lists@1:0.5&lod=3&textures=none`);
+    await ready(page);
+    assert.equal(await page.locator("#common-name").textContent(), "Darkening brittlegill × Own cep_in_lists");
+    assert.deepEqual(log.failed, []);
+    await page.goto(`${base}/?species=~me.none_of_these&lod=3&textures=none`);
+    await page.locator("#problem", { hasText: "~me.none_of_these" }).waitFor();
+    await context.close();
+});
+
+test("the designer starts from species of the library, page by page, and from own drafts", async () => {
+    await stored("amanita_muscaria", "agaric_draft", { published: false });
+    for (const name of ["paged_a", "paged_b"]) await stored("boletus_edulis", name);
+    const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1100, height: 700 } });
+    const page = await context.newPage();
+    page.setDefaultTimeout(60_000);
+    // Pages are made of one species, so that there are some.
+    await page.route(/\/v1\/library\?/, (route) =>
+        route.continue({ url: route.request().url().replace(/limit=\d+/, "limit=1") }),
+    );
+    await page.goto(`${base}/editor#token=${token}`);
+    await page.locator("#tab-library:not([hidden])").waitFor({ state: "attached" });
+    await page.locator("#start-species").click();
+    const items = page.locator("#published-list button");
+    await items.first().waitFor();
+    assert.equal(await items.count(), 1);
+    await page.locator("#published-more").click();
+    await items.nth(1).waitFor();
+    await page.locator("#species-search").fill("paged_b");
+    await page.waitForFunction(() => document.querySelectorAll("#published-list button").length === 1);
+    await page.locator("#published-list [data-species='~me.paged_b@1']").click();
+    await page.locator("#found-numbers", { hasText: "from the file of a species" }).waitFor();
+    await page.locator("#another-species").click();
+    await page.locator("#species-search").fill("agaric_draft");
+    await page.locator("#published-none", { hasText: "none with this name" }).waitFor();
+    await page.locator("#published-mine").check();
+    const draft = page.locator("#published-list [data-species='~me.agaric_draft']");
+    await draft.locator("canvas[data-drawn]").waitFor();
+    await draft.click();
+    await page.locator("#library-state", { hasText: "~me.agaric_draft · draft" }).waitFor({ state: "attached" });
+    await context.close();
+});
+
+test("a service without a library shows nothing of it", async (t) => {
+    const other = serverUrl();
+    if (other === base) return t.skip("there is one server alone, which has a library");
+    const page = await browser.newPage();
+    await page.goto(`${other}/editor`);
+    await page.locator("#start-species").click();
+    await page.locator("#species-list button").first().waitFor();
+    for (const id of ["tab-library", "published-part"]) assert.equal(await page.locator(`#${id}`).isVisible(), false);
+    await page.goto(`${other}/?lod=3&textures=none`);
+    await galleryComplete(page);
+    assert.equal(await page.locator("#gallery :is(.heading, .more)").count(), 0);
+    await page.close();
+});
+
+test("own species are renamed, taken out of lists, shared, saved as files and deleted", async () => {
+    await stored("boletus_edulis", "cep_to_share");
+    const { page } = await open();
+    await page.locator("#tab-library").click();
+    const item = page.locator("#library-list li", { has: page.locator("[data-library='~me.cep_to_share']") });
+    await item.locator("[data-library]").click();
+    await page.locator("#library-state", { hasText: "~me.cep_to_share · draft" }).waitFor();
+    await page.locator("#library-title").fill("A shared cep");
+    await page.locator("#library-title").press("Enter");
+    await page.locator("#library-save").click();
+    await page.locator("#library-state", { hasText: "saved" }).waitFor();
+    const path = `${base}/v1/library/~me.cep_to_share`;
+    assert.equal((await (await fetch(path, { headers })).json()).facts.common_name, "A shared cep");
+    await item.locator("summary").click();
+    await item.locator("[data-action=share]").click();
+    await item.locator("[data-action=make-link]").click();
+    const link = await item.locator(".share-link").inputValue();
+    const reader = await (await browser.newContext({ viewport: { width: 800, height: 500 } })).newPage();
+    await reader.goto(link);
+    await reader.locator("#found-numbers", { hasText: "from the file of a species" }).waitFor({ timeout: 60_000 });
+    assert.equal(new URL(reader.url()).hash, "", "the key does not stay in the address");
+    await item.locator("[data-action=revoke]").click();
+    await item.locator(".links li").waitFor({ state: "detached" });
+    await reader.goto("about:blank");
+    await reader.goto(link);
+    await reader.locator("#gesture-errors", { hasText: "only what is published can be seen" }).waitFor();
+    await reader.context().close();
+    await item.locator("[data-action=unlist]").click();
+    await item.locator("i", { hasText: "@1, unlisted" }).waitFor();
+    const listed = await (await fetch(`${base}/v1/library?q=cep_to_share`)).json();
+    assert.deepEqual(listed.species, []);
+    await item.locator("summary").click();
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        item.locator("[data-action=export]").click(),
+    ]);
+    const file = JSON.parse(await readFile(await download.path(), "utf8"));
+    assert.deepEqual(file.versions.map(({ number }) => number), [0, 1]);
+    const questions = [];
+    page.on("dialog", (dialog) => questions.push(dialog.message()));
+    await item.locator("[data-action=purge]").click();
+    await item.waitFor({ state: "detached" });
+    assert.match(questions[0], /Delete ~me\.cep_to_share for ever\?.*its published version are deleted/);
+    assert.equal((await fetch(`${path}@1`)).status, 410);
+    // Under another name, since those of deleted species are never given again.
+    file.name = "cep_imported";
+    const wrong = { name: "cep.library.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(file)) };
+    await page.locator("#library-file").setInputFiles(wrong);
+    await page.locator("#library-error", { hasText: "its id is 'cep_to_share'" }).waitFor();
+    for (const version of file.versions) {
+        version.text = version.text.replace('"id":"cep_to_share"', '"id":"cep_imported"');
+        version.sha256 = createHash("sha256").update(version.text).digest("hex");
+    }
+    await page.locator("#library-file").setInputFiles({ ...wrong, buffer: Buffer.from(JSON.stringify(file)) });
+    await page.locator("[data-library='~me.cep_imported']", { hasText: "@1" }).waitFor();
     await page.context().close();
 });

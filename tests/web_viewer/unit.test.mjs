@@ -39,6 +39,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "history",
             "http",
             "level_ranges",
+            "library_list",
             "manifest",
             "mix",
             "model",
@@ -1630,4 +1631,22 @@ test("parts that can be locked come from the schema, those of the surface one by
         ["Whole", ["size", "stages", "spread"]],
     ]);
     assert.deepEqual(names("branched")[0], ["Shape", ["limbs", "ring"]]);
+});
+
+test("species of the library are members of mixes like those that are built in", () => {
+    const mix = "~me.cep@12:0.25,russula_vinosa:0.75";
+    assert.ok(page.mixPattern.test(mix));
+    assert.deepEqual(page.readShares(mix), [
+        { id: "~me.cep@12", weight: 0.25 },
+        { id: "russula_vinosa", weight: 0.75 },
+    ]);
+    assert.equal(page.canonicalMix(page.readShares(mix)), "russula_vinosa:0.75,~me.cep@12:0.25");
+    assert.deepEqual(page.libraryIdsOf(mix), ["~me.cep@12"]);
+    for (const wrong of ["~me.cep@", "~~me.cep", "me@cep"]) assert.equal(page.readShares(wrong), undefined);
+    const listed = page.listedOf([
+        { id: "~me.a_b", name: "a_b", title: "", form: "bolete", newest: 2 },
+        { id: "~me.draft", name: "draft", title: "", form: "", newest: 0 },
+    ]);
+    assert.deepEqual(listed.map(({ id, common_name: name }) => [id, name]), [["~me.a_b@2", "a b"]]);
+    assert.equal(page.pageQuery({ q: "é b", limit: 1 }), "q=%C3%A9+b&limit=1");
 });

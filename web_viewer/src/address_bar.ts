@@ -1,6 +1,7 @@
 // The page's URL: every change of a setting is written to it, and it is read on load and on
 // history navigation.
 import type { ProblemItem } from "./http";
+import { libraryIdsOf } from "./library_list";
 import { productOf } from "./products";
 import { mixPattern, type Settings } from "./settings";
 import type { SheetKind } from "./sheet";
@@ -24,10 +25,12 @@ export class AddressBar {
     private lastWrite: { change: string; at: number } | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    /** `ids` are the species or presets of the gallery, the first of which is the default. */
+    /** `species` are those of the gallery, or its presets; the first is the default. `refused` has what the service
+     *  says of others. */
     constructor(
         private readonly settings: Settings,
-        private readonly ids: readonly string[],
+        private readonly species: readonly { id: string }[],
+        private readonly refused: ReadonlyMap<string, string>,
     ) {}
 
     /** Writes the settings to the URL: one history step per drag or run of key presses. `change`
@@ -86,14 +89,16 @@ export class AddressBar {
         }
         const requested = query.get(kind);
         const before = settings.mix;
-        const rejected = settings.readMorph(query, (id) => this.ids.includes(id));
-        const usable = requested && this.canShow(requested) ? requested : (this.ids[0] ?? "");
+        const rejected = settings.readMorph(query, (id) => this.has(id));
+        const usable = requested && this.canShow(requested) ? requested : (this.species[0]?.id ?? "");
         const mix = settings.morph ? settings.mix : usable;
         settings.mix = mix;
         rejected.push(...settings.read(query), ...settings.readMatrix(query));
         if (requested && requested !== mix) {
             const noun = ofSpecies ? "species" : kind;
-            rejected.push({ parameter: kind, detail: `'${requested}' is no ${noun} here` });
+            const why = libraryIdsOf(requested).map((id) => this.refused.get(id));
+            const detail = why.find(Boolean) ?? `'${requested}' is no ${noun} here`;
+            rejected.push({ parameter: kind, detail });
         }
         this.lastWrite = undefined;
         return { otherMix: mix !== before, rejected, sheet: query.get("sheet") };
@@ -113,6 +118,10 @@ export class AddressBar {
     /** Returns true if all members of a mix are species of this server. */
     private canShow(mix: string): boolean {
         const members = mix.split(",").map((member) => member.split(":")[0] ?? "");
-        return mixPattern.test(mix) && members.every((id) => this.ids.includes(id));
+        return mixPattern.test(mix) && members.every((id) => this.has(id));
+    }
+
+    private has(id: string): boolean {
+        return this.species.some((one) => one.id === id);
     }
 }

@@ -123,7 +123,7 @@ export class MorphEditor {
         const shares = this.settings.morph?.shares ?? [];
         const others = shares.filter((share) => share.id !== id);
         if (others.length === shares.length) {
-            if (shares[0] && this.familyOf(id) !== this.familyOf(shares[0].id)) {
+            if (shares[0] && !this.isOfOneFamily(id, shares[0].id)) {
                 const added = `${this.nameOf(id)} is ${this.familyOf(id)}`;
                 const present = `${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`;
                 return announce(`A morph needs one family: ${added}, ${present}`);
@@ -146,7 +146,7 @@ export class MorphEditor {
         for (let step = 1; chosen.length < fewestMembers && step <= this.species.length; ++step) {
             const next = this.species[(start + step + this.species.length) % this.species.length];
             const sameFamily =
-                next && (!chosen[0] || this.familyOf(next.id) === this.familyOf(chosen[0].id));
+                next && (!chosen[0] || this.isOfOneFamily(next.id, chosen[0].id));
             if (sameFamily && !chosen.some(({ id }) => id === next.id))
                 chosen.push({ id: next.id, weight: 0 });
         }
@@ -259,8 +259,17 @@ export class MorphEditor {
         this.showGraph();
     }
 
+    /** The family of a species; of the library lists have the form only, which those that are built in have too. */
     private familyOf(id: string): string | undefined {
-        return this.species.find((one) => one.id === id)?.family;
+        const one = this.species.find((each) => each.id === id);
+        if (one?.family) return one.family;
+        return this.species.find(({ family, form }) => family && form === one?.form)?.family;
+    }
+
+    /** Returns false if two species cannot be mixed; of an unknown form the service decides. */
+    private isOfOneFamily(one: string, other: string): boolean {
+        const [a, b] = [this.familyOf(one), this.familyOf(other)];
+        return a === undefined || b === undefined || a === b;
     }
 
     private nameOf(id: string): string {

@@ -1,6 +1,7 @@
 // The gallery: one button per species, with a picture that the service draws.
 import { make } from "./dom";
 import { centimetres } from "./camera";
+import { isOfLibrary } from "./library_list";
 
 export interface Species {
     id: string;
@@ -52,7 +53,8 @@ export function factLine(species: Species): string {
 /** Returns true if a species matches every word: a part of its names, form or substrate, or a month
  *  in which it fruits. */
 export function matchesSearch(species: Species, words: string): boolean {
-    const text = [species.common_name, species.scientific_name, species.form, species.substrate]
+    const { common_name: common, scientific_name: scientific, form, substrate } = species;
+    const text = [common, scientific, form, substrate]
         .join(" ")
         .toLowerCase();
     const fruiting = (species.season ?? []).map((month) => (months[month - 1] ?? "").toLowerCase());
@@ -65,34 +67,17 @@ export function matchesSearch(species: Species, words: string): boolean {
 
 export class Gallery {
     private readonly buttons = new Map<string, HTMLButtonElement>();
+    /** Called with how many species match the search. */
+    filtered: (shown: number) => void = () => undefined;
+    private words = "";
+    private shown = "";
 
     constructor(
-        host: HTMLElement,
-        readonly species: readonly Species[],
-        choose: (id: string) => void,
+        private readonly host: HTMLElement,
+        readonly species: Species[],
+        private readonly choose: (id: string) => void,
     ) {
-        for (const one of species) {
-            const picture = make("span", { class: "picture", "aria-hidden": true });
-            const button = make(
-                "button",
-                {
-                    type: "button",
-                    "data-species": one.id,
-                    "aria-pressed": "false",
-                    title: factLine(one) || undefined,
-                },
-                picture,
-                make(
-                    "span",
-                    { class: "names" },
-                    make("span", { class: "common" }, one.common_name),
-                    make("i", { lang: "la" }, one.scientific_name),
-                ),
-            );
-            button.addEventListener("click", () => choose(one.id));
-            this.buttons.set(one.id, button);
-            host.append(make("li", {}, button));
-        }
+        for (const one of species) this.append(one);
         host.addEventListener("keydown", (event) => {
             const all = [...this.buttons.values()].filter(
                 (button) => !button.closest("li")?.hidden,
@@ -105,8 +90,48 @@ export class Gallery {
         });
     }
 
+    /** Adds the species that it does not have, at its end; returns their ids. */
+    add(species: readonly Species[]): string[] {
+        const added = species.filter(({ id }) => !this.buttons.has(id));
+        for (const one of added) {
+            // Other parts of the page have the same list.
+            this.species.push(one);
+            this.append(one);
+        }
+        this.markShown(this.shown);
+        this.filter(this.words);
+        return added.map(({ id }) => id);
+    }
+
+    private append(one: Species): void {
+        const isListed = isOfLibrary(one.id);
+        if (isListed && !this.host.querySelector(".heading"))
+            this.host.append(make("li", { class: "heading" }, "Library"));
+        const picture = make("span", { class: "picture", "aria-hidden": true });
+        const button = make(
+            "button",
+            {
+                type: "button",
+                "data-species": one.id,
+                "aria-pressed": "false",
+                title: factLine(one) || undefined,
+            },
+            picture,
+            make(
+                "span",
+                { class: "names" },
+                make("span", { class: "common" }, one.common_name),
+                make("i", { lang: isListed ? undefined : "la" }, one.scientific_name),
+            ),
+        );
+        button.addEventListener("click", () => this.choose(one.id));
+        this.buttons.set(one.id, button);
+        this.host.append(make("li", {}, button));
+    }
+
     /** Shows only the species that match all words; returns how many. */
     filter(words: string): number {
+        this.words = words;
         let shown = 0;
         for (const one of this.species) {
             const item = this.buttons.get(one.id)?.closest("li");
@@ -114,6 +139,7 @@ export class Gallery {
             if (item) item.hidden = !fits;
             shown += fits ? 1 : 0;
         }
+        this.filtered(shown);
         return shown;
     }
 
@@ -123,6 +149,7 @@ export class Gallery {
 
     /** Marks what is on the stage: a species, or each member of a mix. */
     markShown(mix: string): void {
+        this.shown = mix;
         const members = mix.split(",").map((member) => member.split(":")[0]);
         for (const [id, button] of this.buttons) {
             const chosen = members.includes(id);
@@ -143,15 +170,16 @@ export class Gallery {
         }
     }
 
-    /** Shows the picture of each species, at the address that `address` returns for its id. Resolves
+    /** Shows the pictures of species, at the address that `address` returns for an id. Resolves
      *  when all are loaded; one that cannot be had leaves its place empty. */
-    async showPictures(address: (id: string) => string): Promise<void> {
+    async showPictures(ids: readonly string[], address: (id: string) => string): Promise<void> {
         await Promise.all(
-            [...this.buttons].map(async ([id, button]) => {
+            ids.map(async (id) => {
+                const button = this.buttons.get(id);
                 const image = make("img", { src: address(id), alt: "", width: 96, height: 96 });
                 try {
                     await image.decode();
-                    button.querySelector(".picture")?.replaceChildren(image);
+                    button?.querySelector(".picture")?.replaceChildren(image);
                 } catch {
                     // The species can still be opened.
                 }

@@ -6,7 +6,9 @@ import type { Gallery } from "./gallery";
 export function connectSearch(gallery: Gallery): void {
     const input = byId<HTMLInputElement>("find");
     const search = (): void => {
-        const shown = gallery.filter(input.value);
+        gallery.filter(input.value);
+    };
+    gallery.filtered = (shown) => {
         const total = gallery.species.length;
         byId("found").textContent = input.value.trim() ? `${shown} of ${total}` : "";
     };

@@ -4,6 +4,7 @@ import "./app.css";
 import "./export.css";
 import { byId } from "./dom";
 import { asRequestFailed, getJson } from "./http";
+import { namedSpecies } from "./gallery_library";
 import { ModeLinks } from "./mode_links";
 import { Page } from "./page";
 import { ProblemBox } from "./problem_box";
@@ -26,6 +27,18 @@ function nameProduct(product: Product): void {
     byId("find").setAttribute("aria-label", `Find a ${product.noun}`);
 }
 
+/** Finds the species of the library that the page's query names, and completes the query with their versions. */
+async function named(product: Product, query: URLSearchParams): ReturnType<typeof namedSpecies> {
+    const name = product.canMorph && query.has("morph") ? "morph" : product.queryName;
+    const found = await namedSpecies(product.ofSpecies ? (query.get(name) ?? "") : "");
+    if (found.species.length > 0 && found.text !== query.get(name)) {
+        query.set(name, found.text);
+        const readable = query.toString().replace(/%(7E|40|3A|2C)/g, decodeURIComponent);
+        history.replaceState(null, "", `?${readable}`);
+    }
+    return found;
+}
+
 async function open(): Promise<void> {
     const query = new URLSearchParams(location.search);
     const shot = query.get("shot") === "1";
@@ -34,10 +47,12 @@ async function open(): Promise<void> {
     const product = productOf(query);
     nameProduct(product);
     const links = new ModeLinks(product);
-    const [schema, species] = await Promise.all([
+    const [schema, species, ofLibrary] = await Promise.all([
         getJson<Schema>(`${product.path}/schema`),
         product.list(),
+        named(product, query),
     ]);
+    species.push(...ofLibrary.species);
     const { closeUps, directions, liesOnGround: lies } = product;
     const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), {
         reducedMotion: reducedMotion,
@@ -47,7 +62,7 @@ async function open(): Promise<void> {
         liesOnGround: lies,
     });
     const page = new Page(
-        { stage, links, product, schema, species },
+        { stage, links, product, schema, species, refused: ofLibrary.refused },
         { reducedMotion, withoutPictures: shot },
     );
     installTestHandle(page, stage);

@@ -47,7 +47,7 @@ export function sharesText(shares: readonly Share[]): string {
 export function readShares(text: string): Share[] | undefined {
     const shares: Share[] = [];
     for (const part of text.split(",")) {
-        const match = /^([a-z0-9_]+)(?::(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?))?$/.exec(part);
+        const match = /^(~?[a-z0-9_.]+(?:@\d+)?)(?::(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?))?$/.exec(part);
         if (!match?.[1] || shares.some(({ id }) => id === match[1])) return undefined;
         shares.push({ id: match[1], weight: match[2] === undefined ? 1 : Number(match[2]) });
     }

@@ -10,6 +10,7 @@ import { ExportPanel } from "./export_panel";
 import { FileActions, saveFile } from "./file_actions";
 import { acceptFiles, inspectFile } from "./file_drop";
 import { Gallery, type Species } from "./gallery";
+import { GalleryLibrary, namedSpecies } from "./gallery_library";
 import { connectSearch } from "./gallery_search";
 import { ModelLoader, type LoadedModel, type ModelReport } from "./model_loader";
 import { GrowthPlayer, restMs } from "./growth_player";
@@ -54,8 +55,10 @@ export interface PageParts {
     links: ModeLinks;
     product: Product;
     schema: Schema;
-    /** The species or presets of the gallery. */
-    species: readonly Species[];
+    /** The species or presets of the gallery, which grows with what is found in the library. */
+    species: Species[];
+    /** What the service says of species of the library that the address names. */
+    refused: ReadonlyMap<string, string>;
 }
 
 export interface PageOptions {
@@ -93,15 +96,14 @@ export class Page {
     /** The named view that the camera has; undefined once it was turned by hand. */
     private looked: LookName | undefined = "three-quarter";
 
-    constructor({ stage, links, product, schema, species }: PageParts, options: PageOptions) {
+    constructor({ stage, links, product, schema, species, refused }: PageParts, options: PageOptions) {
         this.stage = stage;
         this.links = links;
         this.product = product;
         const groups = groupsOf(schema, product.groupName);
         const fields = groups.flatMap((group) => group.fields);
-        const ids = species.map(({ id }) => id);
-        this.settings = new Settings(fields, ids[0] ?? "", product);
-        this.address = new AddressBar(this.settings, ids);
+        this.settings = new Settings(fields, species[0]?.id ?? "", product);
+        this.address = new AddressBar(this.settings, species, refused);
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
         connectSearch(this.gallery);
         this.plate = new NamePlate(product, (id) => this.gallery.find(id));
@@ -429,7 +431,7 @@ export class Page {
         announce(`Reading ${file.name}`);
         try {
             const { product, id, query } = await inspectFile(file, this.product.noun);
-            if (product === this.product) this.restore(file, id, query);
+            if (product === this.product) await this.restore(file, id, query);
             else this.openProduct(product, id, query);
         } catch (error) {
             const failed = asRequestFailed(error, `${file.name} could not be read`);
@@ -438,7 +440,9 @@ export class Page {
         }
     }
 
-    private restore(file: File, mix: string, query: string): void {
+    private async restore(file: File, mix: string, query: string): Promise<void> {
+        const added = this.gallery.add((await namedSpecies(mix)).species);
+        void this.showPicturesOf(added);
         const refit = mix !== this.settings.mix;
         this.settings.setMorph(undefined);
         this.settings.mix = mix;
@@ -456,9 +460,17 @@ export class Page {
     /** Shows the gallery's pictures, once the model is shown. */
     private async showPictures(): Promise<void> {
         await this.settled().catch(() => undefined);
+        const library = new GalleryLibrary(this.gallery, (ids) => this.showPicturesOf(ids));
+        await Promise.all([
+            this.showPicturesOf(this.gallery.species.map(({ id }) => id)),
+            this.product.ofSpecies && library.begin(),
+        ]);
+        document.documentElement.dataset["gallery"] = "complete";
+    }
+
+    private showPicturesOf(ids: readonly string[]): Promise<void> {
         // A product made of species shows a single mushroom of each.
         const { path, pictureQuery } = this.product.ofSpecies ? mushrooms : this.product;
-        await this.gallery.showPictures((id) => `${path}/${id}.png?${pictureQuery}`);
-        document.documentElement.dataset["gallery"] = "complete";
+        return this.gallery.showPictures(ids, (id) => `${path}/${id}.png?${pictureQuery}`);
     }
 }

@@ -15,8 +15,9 @@ import { readRows, rowsText } from "./rows";
 import { validationError, parsed, type Field, type Value } from "./schema";
 import { readView, viewNames, viewQuery } from "./view_state";
 
-/** A mix in the service's syntax: "boletus_edulis" or "a:0.7,b:0.3". */
-export const mixPattern = /^[a-z0-9_]+(:[0-9.eE+-]+)?(,[a-z0-9_]+(:[0-9.eE+-]+)?){0,7}$/;
+/** A mix in the service's syntax: "boletus_edulis", "~owner.name@3" or "a:0.7,b:0.3". */
+export const mixPattern =
+    /^~?[a-z0-9_.]+(@\d+)?(:[0-9.eE+-]+)?(,~?[a-z0-9_.]+(@\d+)?(:[0-9.eE+-]+)?){0,7}$/;
 
 /** State of the morph editor: all shares, zeros included, and the designer's arcs between two
  *  species. */

@@ -1,10 +1,10 @@
 // The page that breeds: passes events between the parents, the nine children, their family tree and the address.
 import { viewNames, type ViewName } from "../camera";
 import { Controls, type ControlledValues } from "../controls";
-import { hasLibrary } from "../designer/library";
 import { described, speciesSchema, type DocumentSchema } from "../designer/schemas";
 import { byId, make } from "../dom";
 import { asRequestFailed, getJson, RequestFailed } from "../http";
+import { hasLibrary } from "../library_list";
 import { disposeModel, parseModel } from "../model";
 import { ProblemBox } from "../problem_box";
 import { groupsOf, type Field, type Schema, type Value } from "../schema";

@@ -4,7 +4,7 @@ import { centimetres, standing, standingCloseUps, viewNames, type ViewName } fro
 import { byId, make } from "../dom";
 import { saveFile } from "../file_actions";
 import { History } from "../history";
-import { asRequestFailed, RequestFailed, type ProblemItem } from "../http";
+import { asRequestFailed, RequestFailed, send, type ProblemItem } from "../http";
 import { showLight } from "../photo_tools";
 import { ProblemBox } from "../problem_box";
 import { showProgress } from "../progress_box";
@@ -166,6 +166,9 @@ export class Designer {
         () =>
             !this.photograph?.drawable ||
             confirm("The species takes the place of the photograph and of the lines on it. Go on?"),
+        (title) => this.write({ "/facts/common_name": title }),
+        () => this.portraitRenderer,
+        () => this.isBusy,
     );
     private photograph: Source | undefined;
     private address: string | undefined;
@@ -224,14 +227,14 @@ export class Designer {
             insert: (at) => this.bend((old) => withAxisPoint(old, at)),
             remove: (at) => this.bend((old) => withoutAxisPoint(old, at)),
         });
-        const portraits = (): Portraits => (this.portraits ??= new Portraits());
+        const portraits = (): Portraits => this.portraitRenderer;
         this.overPhoto = new OverPhoto(portraits);
         for (const { element } of [this.overPhoto, this.outline, this.axis])
             this.sketch.overlay(element);
         this.strip = new StageStrip(
             (stage) => this.editStage(stage),
             portraits,
-            () => !this.live?.idle || !!this.tracing,
+            () => this.isBusy,
         );
         this.findings = new Findings({ template: (template) => this.change({ template }) });
         const forms = {
@@ -252,7 +255,7 @@ export class Designer {
             byId("of-stage").hidden = !isForm;
             if (isForm) void this.makeForms();
         });
-        new SpeciesChooser((file) => void this.open(file));
+        new SpeciesChooser(this.library, (file) => void this.open(file));
         void this.library.begin();
         for (const tool of tools) {
             const { label, title } = words[tool];
@@ -273,6 +276,16 @@ export class Designer {
         this.state = "empty";
     }
 
+    /** The renderer of small pictures, made once it is needed. */
+    private get portraitRenderer(): Portraits {
+        return (this.portraits ??= new Portraits());
+    }
+
+    /** Small pictures wait while this is true. */
+    private get isBusy(): boolean {
+        return (!!this.live && !this.live.idle) || !!this.tracing;
+    }
+
     /** Opens the draft of the last visit, if there is one. */
     async resume(): Promise<void> {
         const draft = await loadDraft();
@@ -285,6 +298,19 @@ export class Designer {
         if (!this.photograph) return;
         if (linked) this.library.resume(linked);
         announce("The draft of the last visit is open again.");
+    }
+
+    /** Opens a species of the library: a published version, or a draft with a key of its owner. */
+    async openShared({ id, key }: { id: string; key: string | undefined }): Promise<void> {
+        try {
+            const query = key === undefined ? "" : `?share=${encodeURIComponent(key)}`;
+            const text = await (await send(`v1/library/${id}${query}`)).text();
+            const name = id.replace(/^.*\.|@.*$/g, "");
+            await this.open(new File([text], `${name}.json`, { type: "application/json" }));
+        } catch (error) {
+            if (!this.photograph) this.state = "failed";
+            this.showProblemOfPhoto(asRequestFailed(error, `${id} cannot be opened`));
+        }
     }
 
     /** Opens a photograph in place of the last one. */

@@ -1,5 +1,6 @@
 // The library of the service: the user's species, as drafts and as published versions.
-import { getJson, send } from "../http";
+import { send } from "../http";
+import { pageQuery, type LibraryPage, type LibrarySpecies } from "../library_list";
 import type { Species } from "./service";
 
 export interface Quota {
@@ -11,18 +12,20 @@ export interface Quota {
     max_bytes: number;
 }
 
-/** A species in lists and after writes. */
-export interface StoredSpecies {
-    /** "~owner.name" */
-    id: string;
-    name: string;
-    title: string;
-    /** Number of the newest published version; 0 for none. */
-    newest: number;
-    updated_s: number;
-    links: { self: string; published?: string; model?: string };
-    /** Entity tag of the draft, after writes. */
+/** A species after writes. */
+export interface StoredSpecies extends LibrarySpecies {
+    /** Entity tag of the draft. */
     draft?: string;
+}
+
+/** A key with which a draft can be read. */
+export interface Share {
+    id: string;
+    created_s: number;
+    expires_s: number;
+    revoked: boolean;
+    /** The secret, of a new one alone. */
+    share?: string;
 }
 
 /** A draft as it was read, and its entity tag. */
@@ -52,12 +55,6 @@ export function tokenIn(text: string): string | undefined {
     return /(?:^|#token=)(spk_[a-z0-9]{8}_[\w-]{43})$/.exec(text.trim())?.[1];
 }
 
-/** Returns true if the service has a library. */
-export async function hasLibrary(): Promise<boolean> {
-    const { links } = await getJson<{ links: Record<string, string> }>("v1");
-    return "library" in links;
-}
-
 /** What the holder of a token can do. */
 export class Library {
     constructor(private readonly token: string) {}
@@ -67,17 +64,19 @@ export class Library {
     }
 
     /** Returns all species of the owner, drafts too. */
-    async mine(): Promise<StoredSpecies[]> {
-        const all: StoredSpecies[] = [];
+    async mine(): Promise<LibrarySpecies[]> {
+        const all: LibrarySpecies[] = [];
         for (let after: string | null = ""; after !== null; ) {
-            const from: string = after && `&after=${encodeURIComponent(after)}`;
-            const page: { species: StoredSpecies[]; next: string | null } = await this.json(
-                `v1/library?mine=true&limit=100${from}`,
-            );
+            const page: LibraryPage = await this.ownPage({ after, limit: 100 });
             all.push(...page.species);
             after = page.next;
         }
         return all;
+    }
+
+    /** Returns a page of the owner's species, drafts and unlisted ones too. */
+    ownPage(wanted: { q?: string; after?: string; limit?: number }): Promise<LibraryPage> {
+        return this.json(`v1/library?mine=true&${pageQuery(wanted)}`);
     }
 
     async draft(id: string): Promise<Draft> {
@@ -100,6 +99,40 @@ export class Library {
     publish(id: string, etag: string, note: string): Promise<StoredSpecies> {
         const body = JSON.stringify({ note });
         return this.json(`v1/library/${id}/publish`, { method: "POST", body }, etag);
+    }
+
+    /** Takes a species out of lists; its published addresses go on. */
+    async unlist(id: string): Promise<void> {
+        await this.send(`v1/library/${id}`, { method: "DELETE" }, "*");
+    }
+
+    /** Deletes a species with all its versions. */
+    async purge(id: string): Promise<void> {
+        await this.send(`v1/library/${id}?purge=true`, { method: "DELETE" }, "*");
+    }
+
+    async shares(id: string): Promise<Share[]> {
+        return (await this.json<{ shares: Share[] }>(`v1/library/${id}/shares`)).shares;
+    }
+
+    /** Makes a key that is good for so many seconds. */
+    share(id: string, seconds: number): Promise<Share> {
+        const body = JSON.stringify({ expires_s: seconds });
+        return this.json(`v1/library/${id}/shares`, { method: "POST", body });
+    }
+
+    async revoke(id: string, share: string): Promise<void> {
+        await this.send(`v1/library/${id}/shares/${share}`, { method: "DELETE" });
+    }
+
+    /** Returns a species with all its versions, for import(). */
+    async exported(id: string): Promise<Blob> {
+        return (await this.send(`v1/library/${id}/export.json`)).blob();
+    }
+
+    /** Stores what exported() has returned, here or at another service. */
+    import(file: Blob): Promise<{ id: string; newest: number }> {
+        return this.json("v1/library/import", { method: "POST", body: file });
     }
 
     private async json<T>(path: string, init: RequestInit = {}, etag?: string): Promise<T> {

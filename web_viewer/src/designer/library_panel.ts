@@ -1,9 +1,10 @@
 // The panel of the library: a token, the user's species, saving and publishing.
 import { byId, make } from "../dom";
 import { asRequestFailed, RequestFailed } from "../http";
+import { saveFile } from "../file_actions";
 import { announce } from "../status_line";
+import { hasLibrary, type LibraryPage, type LibrarySpecies } from "../library_list";
 import {
-    hasLibrary,
     Library,
     nameLike,
     namePattern,
@@ -11,7 +12,11 @@ import {
     type Quota,
     type StoredSpecies,
 } from "./library";
+import { copyText, libraryEntry, purgeQuestion, type EntryActions } from "./library_entry";
+import type { Portraits } from "./portraits";
 import type { Species } from "./service";
+import type { OwnSpecies } from "./species_chooser";
+import { Thumbnails } from "./thumbnails";
 
 export const storageKey = "sporeprint-token";
 export const linkKey = "sporeprint-library-draft";
@@ -28,7 +33,7 @@ interface Link {
     text: string;
 }
 
-export class LibraryPanel {
+export class LibraryPanel implements OwnSpecies {
     private library: Library | undefined;
     private quota: Quota | undefined;
     private link: Link | undefined;
@@ -72,16 +77,41 @@ export class LibraryPanel {
     private readonly conflict = make("div", { class: "row", id: "library-conflict", hidden: true });
     private readonly published = make("p", { id: "library-published", hidden: true });
     private readonly list = make("ul", { id: "library-list", class: "species-list" });
+    private readonly title = make("input", {
+        type: "text",
+        id: "library-title",
+        maxlength: 64,
+        autocomplete: "off",
+    });
+    private readonly file = make("input", {
+        type: "file",
+        id: "library-file",
+        accept: "application/json,.json",
+        hidden: true,
+    });
+    private readonly load = make(
+        "button",
+        { type: "button", id: "library-import", title: "A file that Save file has made, with all its versions" },
+        "Import…",
+    );
     private readonly owner = make("p", { class: "hint", id: "library-owner" });
+    private readonly thumbnails: Thumbnails;
     private readonly entrance: HTMLFormElement;
     private readonly desk: HTMLElement;
 
     /** `opened` is called with a species of the library; `mayReplace` returns whether it may replace what is worked
-     *  on. */
+     *  on; `titled` is called with a new title of it. */
     constructor(
         private readonly opened: (file: File) => Promise<void>,
         private readonly mayReplace: () => boolean,
+        titled: (title: string) => void,
+        portraits: () => Portraits,
+        busy: () => boolean,
     ) {
+        this.thumbnails = new Thumbnails(portraits, busy, async (id) => {
+            if (!this.library) throw new Error("Nobody is signed in.");
+            return (await this.library.draft(id)).text;
+        });
         this.entrance = make(
             "form",
             { id: "library-entrance" },
@@ -100,6 +130,8 @@ export class LibraryPanel {
             "div",
             { id: "library-desk", hidden: true },
             make("div", { class: "bar-row" }, this.owner, leave),
+            make("label", { for: "library-title" }, "Title"),
+            this.title,
             make("label", { for: "library-name" }, "Name"),
             this.name,
             make(
@@ -113,7 +145,7 @@ export class LibraryPanel {
             this.state,
             this.conflict,
             this.published,
-            make("h2", {}, "Your species"),
+            make("div", { class: "bar-row" }, make("h2", {}, "Your species"), this.load, this.file),
             this.list,
         );
         byId("library").append(this.entrance, this.desk, this.error);
@@ -124,6 +156,17 @@ export class LibraryPanel {
         leave.addEventListener("click", () => this.leave());
         this.save.addEventListener("click", () => void this.write(() => this.saved()));
         this.publish.addEventListener("click", () => void this.write(() => this.publishNow()));
+        this.title.addEventListener("change", () => {
+            const title = this.title.value.trim();
+            if (title) titled(title);
+            else this.show(this.species);
+        });
+        this.load.addEventListener("click", () => this.file.click());
+        this.file.addEventListener("change", () => {
+            const chosen = this.file.files?.[0];
+            this.file.value = "";
+            if (chosen) void this.import(chosen);
+        });
         this.name.addEventListener("input", () => {
             this.published.hidden = this.name.value !== this.link?.name;
             this.showState();
@@ -158,6 +201,7 @@ export class LibraryPanel {
         clearTimeout(this.saving);
         if (species && !this.link && !this.name.value)
             this.name.value = nameLike(species.facts?.common_name ?? species.id);
+        this.title.value = species?.facts?.common_name ?? "";
         this.showState();
         const { link } = this;
         if (!species || !link || this.textOf(link.name) === link.text || !this.conflict.hidden) return;
@@ -232,6 +276,80 @@ export class LibraryPanel {
         this.desk.hidden = true;
     }
 
+    /** What can be done with each of the user's species. */
+    private readonly actions: EntryActions = {
+        open: (species) => void this.open(species),
+        unlist: ({ id }) =>
+            void this.act(`${id} cannot be taken out of lists`, async (library) => {
+                await library.unlist(id);
+                announce(`${id} is in no list now; its published addresses go on.`);
+                await this.showList();
+            }),
+        purge: (species) => void this.purge(species),
+        save: ({ id, name }) =>
+            void this.act(`${id} cannot be saved`, async (library) =>
+                saveFile(await library.exported(id), `${name}.library.json`),
+            ),
+        shares: async ({ id }) =>
+            (await this.act("The links cannot be listed", (library) => library.shares(id))) ?? [],
+        share: ({ id }, seconds) =>
+            this.act("The link cannot be made", (library) => library.share(id, seconds)),
+        revoke: async ({ id }, share) => {
+            await this.act("The link cannot be revoked", (library) => library.revoke(id, share.id));
+            announce("The link is revoked.");
+        },
+    };
+
+    private get mayWrite(): boolean {
+        return !!this.quota && this.quota.scope !== "read";
+    }
+
+    /** Does what changes nothing that is worked on, after all writes before it; shows why it failed. */
+    private act<T>(failure: string, act: (library: Library) => Promise<T>): Promise<T | undefined> {
+        const done = this.writing.then(async () => {
+            this.showError(undefined);
+            if (!this.library) return undefined;
+            try {
+                return await act(this.library);
+            } catch (error) {
+                const failed = asRequestFailed(error, failure);
+                this.showError(failed);
+                announce(failed.message);
+                return undefined;
+            }
+        });
+        this.writing = done.then(() => undefined);
+        return done;
+    }
+
+    private async purge(species: LibrarySpecies): Promise<void> {
+        const { id } = species;
+        if (!confirm(purgeQuestion(species))) return;
+        clearTimeout(this.saving);
+        await this.act(`${id} cannot be deleted`, async (library) => {
+            await library.purge(id);
+            // What is worked on stays, but its name is taken for ever.
+            if (this.link?.id === id) {
+                this.follow(undefined);
+                this.name.value = `${this.name.value.slice(0, 22)}_2`;
+                this.published.hidden = this.conflict.hidden = true;
+                this.say(`${id} is deleted; what is here is not saved.`);
+            }
+            announce(`${id} is deleted.`);
+            await this.showList();
+        });
+    }
+
+    private async import(file: File): Promise<void> {
+        await this.act(`${file.name} cannot be imported`, async (library) => {
+            const { id, newest } = await library.import(file);
+            const versions = newest === 1 ? "one version" : `${newest} versions`;
+            announce(`${id} is imported${newest > 0 ? ` with ${versions}` : ", a draft"}.`);
+            await this.showList();
+            this.list.querySelector<HTMLElement>(`[data-library="${id}"]`)?.focus();
+        });
+    }
+
     /** Does one write after those before it, and shows how it ended. */
     private write(act: () => Promise<void>): Promise<void> {
         clearTimeout(this.saving);
@@ -298,16 +416,7 @@ export class LibraryPanel {
         const path = (links.model ?? "").replace(/^.*?\/(v1\/)/, "$1");
         const address = new URL(path, document.baseURI).href;
         const copy = make("button", { type: "button" }, "Copy address");
-        copy.addEventListener("click", () => {
-            void navigator.clipboard
-                .writeText(address)
-                .then(() => {
-                    announce("The address is copied.");
-                    copy.textContent = "Copied";
-                    setTimeout(() => (copy.textContent = "Copy address"), 2000);
-                })
-                .catch(() => announce(`The address is ${address}`));
-        });
+        copy.addEventListener("click", () => void copyText(address, "The address", copy));
         this.published.replaceChildren(
             `${id}@${newest}: `,
             make("a", { href: path, id: "library-address" }, address),
@@ -347,7 +456,7 @@ export class LibraryPanel {
                 link.text = "";
                 await this.saved();
             }),
-            choice("Take theirs", () => this.open(link.id, link.name)),
+            choice("Take theirs", () => this.openDraft(link.id, link.name)),
             choice("Save mine under another name", async () => {
                 this.follow(undefined);
                 this.name.value = `${this.name.value.slice(0, 21)}_2`;
@@ -358,7 +467,24 @@ export class LibraryPanel {
         (this.conflict.firstElementChild as HTMLElement | null)?.focus();
     }
 
-    private async open(id: string, name: string): Promise<void> {
+    get isSignedIn(): boolean {
+        return !!this.library;
+    }
+
+    page(wanted: { q: string; after: string }): Promise<LibraryPage> {
+        return this.library?.ownPage(wanted) ?? Promise.resolve({ species: [], next: null });
+    }
+
+    portrait(species: LibrarySpecies): HTMLElement {
+        return this.thumbnails.of(species);
+    }
+
+    /** Goes on with the draft of a species. */
+    open({ id, name }: LibrarySpecies): Promise<void> {
+        return this.write(() => this.openDraft(id, name));
+    }
+
+    private async openDraft(id: string, name: string): Promise<void> {
         const { library } = this;
         if (!library || !this.mayReplace()) return;
         const { text, etag } = await library.draft(id);
@@ -379,16 +505,9 @@ export class LibraryPanel {
         const own = all.find(({ id }) => id === this.link?.id);
         if (own && own.newest > 0) this.showPublished(own);
         this.list.replaceChildren(
-            ...all.map(({ id, name, title, newest }) => {
-                const state = newest > 0 ? `published: version ${newest}` : "draft";
-                const button = make(
-                    "button",
-                    { type: "button", "data-library": id },
-                    make("span", {}, make("b", {}, title || name), make("i", {}, `${id} · ${state}`)),
-                );
-                button.addEventListener("click", () => void this.write(() => this.open(id, name)));
-                return make("li", {}, button);
-            }),
+            ...all.map((species) =>
+                libraryEntry(species, this.portrait(species), this.mayWrite, this.actions),
+            ),
         );
         if (all.length === 0) this.list.replaceChildren(make("li", { class: "hint" }, "None yet."));
     }
@@ -401,8 +520,9 @@ export class LibraryPanel {
     }
 
     private showState(): void {
-        const writable = !!this.species && !!this.quota && this.quota.scope !== "read";
-        this.save.disabled = this.publish.disabled = !writable;
+        this.save.disabled = this.publish.disabled = !this.species || !this.mayWrite;
+        this.title.disabled = !this.species;
+        this.load.disabled = !this.mayWrite;
         const nothing = "Open or trace a mushroom, then it can be saved here.";
         if (!this.species) this.say(nothing);
         else if (this.state.textContent === nothing) this.say("");

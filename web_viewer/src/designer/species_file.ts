@@ -64,7 +64,8 @@ export function readSpecies(text: string): Species {
     return { ...(species as Species), id: species?.id ?? "species" };
 }
 
-function stageOf({ stages }: Species): number {
+/** Returns the stage that is mature, as an index. */
+export function stageOf({ stages }: Species): number {
     const off = stages.map(({ age }) => Math.abs(age - matureAge));
     return off.indexOf(Math.min(...off));
 }
