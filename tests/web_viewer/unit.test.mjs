@@ -1650,3 +1650,18 @@ test("species of the library are members of mixes like those that are built in",
     assert.deepEqual(listed.map(({ id, common_name: name }) => [id, name]), [["~me.a_b@2", "a b"]]);
     assert.equal(page.pageQuery({ q: "é b", limit: 1 }), "q=%C3%A9+b&limit=1");
 });
+
+test("an axis on which the stem would fold is straighter where a model is grown alone", () => {
+    const read = (id) => JSON.parse(readFileSync(path.join(root, `core/atlas/species/${id}.json`), "utf8"));
+    for (const id of ["lactarius_deliciosus", "russula_vinosa"]) {
+        const [{ model: button }, { model: young }] = read(id).stages;
+        assert.ok(page.isFolded(button), id);
+        assert.ok(!page.isFolded(young), id);
+        assert.equal(page.asGrown(young), young);
+        const { axis } = page.asGrown(button);
+        const fold = page.foldOf(axis, button.silhouette);
+        assert.ok(fold > 0.5 && fold <= 0.54, `${id}: ${fold}`);
+        assert.deepEqual(axis.map(({ y }) => y), button.axis.map(({ y }) => y));
+    }
+    assert.equal(page.isFolded({}), false);
+});

@@ -13,6 +13,7 @@ export interface AxisPoint {
 export interface ModelShape {
     silhouette?: Silhouette;
     axis?: unknown;
+    deformation?: { irregularity?: number };
 }
 
 type Vector = readonly [number, number, number];
@@ -22,6 +23,14 @@ export const mostAxisPoints = 16;
 
 /** The sharpest bend, as curvature times the radius of the stem: at 1 the stem folds. */
 const sharpest = 0.8;
+
+/** The service refuses a model that bends about as far as this. */
+const folding = 0.9;
+
+/** The sharpest bend of a species, and how much wider an irregular stem is: what bends farther is grown straighter,
+ *  as core/individual/resolve.cpp does. */
+const sharpestGrown = 0.6;
+const widening = 1.3;
 
 const bisections = 10;
 const piecesPerSegment = 12;
@@ -147,6 +156,30 @@ export function foldOf(points: readonly AxisPoint[], silhouette: Silhouette): nu
         most = Math.max(most, (turn / step) * total);
     });
     return (most * radius) / (top - base);
+}
+
+/** Returns true if a stem would fold on the axis of its model. */
+export function isFolded(model: ModelShape): boolean {
+    const { silhouette } = model;
+    return !!silhouette && foldOf(axisOf(model), silhouette) > folding;
+}
+
+/** Returns a model as a species of the service grows it: an axis on which the stem would fold is straighter. Alone
+ *  the service refuses such a model. */
+export function asGrown<T extends ModelShape>(model: T): T {
+    const { silhouette } = model;
+    if (!silhouette || !isFolded(model)) return model;
+    const axis = axisOf(model);
+    const most = sharpestGrown / (1 + widening * (model.deformation?.irregularity ?? 0));
+    const part = (share: number): AxisPoint[] =>
+        axis.map(({ x, y, z }) => ({ x: share * x, y, z: share * z }));
+    let [low, high] = [0, 1];
+    for (let step = 0; step < bisections; ++step) {
+        const share = (low + high) / 2;
+        if (foldOf(part(share), silhouette) > most) high = share;
+        else low = share;
+    }
+    return { ...model, axis: part(low) };
 }
 
 /** Moves a point of an axis as far towards a place as the stem does not fold; the root stays. */

@@ -1,5 +1,6 @@
 // What the service has found on the photograph: numbers, warnings and the species that it is like.
 import { byId, make } from "../dom";
+import { isFolded } from "./axis_line";
 import { hasGeometry } from "./details";
 import type { Drawing } from "./gesture";
 import { millimetres, sizeOf, type Nearest, type Trace } from "./service";
@@ -88,10 +89,14 @@ export class Findings {
                 ],
             ),
         );
-        byId("warnings").replaceChildren(
-            ...trace.warnings.map(({ code, detail }) => make("li", { "data-code": code }, detail)),
+        const folded = isFolded(trace.species.stages[stage]?.model ?? {})
+            ? [{ code: "folded", detail: "On its axis the stem of this age would fold: it is grown straighter." }]
+            : [];
+        const warnings = [...trace.warnings, ...folded].map(({ code, detail }) =>
+            make("li", { "data-code": code }, detail),
         );
-        byId("warnings").hidden = trace.warnings.length === 0;
+        byId("warnings").replaceChildren(...warnings);
+        byId("warnings").hidden = warnings.length === 0;
         byId("likeness").hidden = trace.nearest.length === 0;
         const auto = template === "auto";
         byId("template-auto").setAttribute("aria-pressed", String(auto));

@@ -3,6 +3,7 @@ import { asRequestFailed, getModel, type RequestFailed } from "../http";
 import { parseModel } from "../model";
 import type { LoadProgress } from "../progress_box";
 import type { Stage } from "../stage";
+import { asGrown, type ModelShape } from "./axis_line";
 
 export interface LiveModelEvents {
     progress: (progress: LoadProgress) => void;
@@ -39,8 +40,8 @@ export class LiveModel {
 
     /** Shows a model: as a draft coarse and with small images, otherwise as the file that can be
      *  saved. A draft that is on its way is completed first: a long drag shows something. */
-    show(model: unknown, { draft = false, refit = false } = {}): void {
-        this.next = { text: JSON.stringify(model), draft, refit: refit || !!this.next?.refit };
+    show(model: ModelShape, { draft = false, refit = false } = {}): void {
+        this.next = { text: JSON.stringify(asGrown(model)), draft, refit: refit || !!this.next?.refit };
         if (this.active && (!draft || !this.active.wanted.draft)) this.stop();
         clearTimeout(this.timer);
         if (!this.active) this.timer = setTimeout(() => void this.start(), draft ? 0 : pauseMs);

@@ -4,6 +4,7 @@ import { Box3, OrthographicCamera, Sphere, Vector3, type Object3D } from "three"
 import { getModel } from "../http";
 import { litScene } from "../lit_scene";
 import { boundsOf, disposeModel, parseModel } from "../model";
+import { asGrown, type ModelShape } from "./axis_line";
 
 /** What is in a picture, metres. */
 export interface Window {
@@ -30,11 +31,11 @@ export class Portraits {
     }
 
     /** Grows a model and draws it on another canvas, whole. */
-    async small(model: unknown, onto: HTMLCanvasElement, signal: AbortSignal): Promise<void> {
+    async small(model: ModelShape, onto: HTMLCanvasElement, signal: AbortSignal): Promise<void> {
         const { bytes, response } = await getModel(
             {
                 address: "v1/mushrooms.glb",
-                body: `{"model":${JSON.stringify(model)},"lod":2,"texture_size":128}`,
+                body: `{"model":${JSON.stringify(asGrown(model))},"lod":2,"texture_size":128}`,
             },
             signal,
         );

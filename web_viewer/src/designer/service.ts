@@ -1,6 +1,6 @@
 // The service's part of the designer: photographs that it forgets after a while, and traces.
 import { RequestFailed, send } from "../http";
-import { axisOf } from "./axis_line";
+import { asGrown, axisOf } from "./axis_line";
 import { withDetails } from "./details";
 import type { Silhouette } from "./outline";
 import { orderOf, type Drawing, type Extent, type Point } from "./gesture";
@@ -25,7 +25,7 @@ export interface Stage {
     model: {
         silhouette?: Silhouette;
         axis?: unknown;
-        deformation?: { bend_deg?: number; lean_deg?: number };
+        deformation?: { bend_deg?: number; lean_deg?: number; irregularity?: number };
     };
 }
 
@@ -157,7 +157,7 @@ export async function checkOutline(
     signal: AbortSignal,
 ): Promise<OutlineCheck> {
     const { silhouette } = model;
-    const axis = axisOf(model);
+    const axis = axisOf(asGrown(model));
     const response = await send("v1/outlines/check", {
         method: "POST",
         headers: { "Content-Type": "application/json" },

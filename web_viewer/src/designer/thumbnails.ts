@@ -56,7 +56,7 @@ export class Thumbnails {
             while (this.busy()) await new Promise((done) => setTimeout(done, waitMs));
             const species: Species = readSpecies(await this.draft(id));
             const canvas = make("canvas", { width: side, height: side });
-            const { model } = species.stages[stageOf(species)] ?? {};
+            const { model = {} } = species.stages[stageOf(species)] ?? {};
             await this.portraits().small(model, canvas, new AbortController().signal);
             return canvas;
         });
