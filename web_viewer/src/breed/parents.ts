@@ -98,8 +98,9 @@ export async function hasDraft(): Promise<boolean> {
  *  throws  Error if there is none, or if lines are missing on its photograph */
 export async function designersDraft(signal: AbortSignal): Promise<Species> {
     const draft = await loadDraft();
-    if (!draft) throw new Error("The designer has no draft in this browser");
-    const source = await sourceOf(draft.file, signal);
+    const file = draft?.files.get(draft.drawing.source ?? -1);
+    if (!draft || !file) throw new Error("The designer has no draft in this browser");
+    const source = await sourceOf(file, signal);
     try {
         const drawing: Drawing = draft.drawing;
         if (missingLine(drawing.gesture, source.stored.alpha) === "axis")

@@ -109,7 +109,8 @@ export class SaveDialog {
         // The draft before may have been one of the library; this one is not.
         localStorage.removeItem(linkKey);
         const file = new File([text], `${this.idOf(text)}.json`, { type: "application/json" });
-        await saveDraft({ file, drawing: startOfDrawing });
+        const drawing = { ...startOfDrawing, source: 1 };
+        await saveDraft({ drawing, past: [], future: [], files: new Map([[1, file]]) });
         location.href = "editor";
     }
 

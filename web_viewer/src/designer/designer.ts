@@ -62,6 +62,7 @@ import { PanelTabs } from "../panel_tabs";
 import { Portraits } from "./portraits";
 import { speciesSchema, tracedForms } from "./schemas";
 import { SpeciesChooser } from "./species_chooser";
+import { Sources, type Opened } from "./sources";
 import { StageStrip } from "./stage_strip";
 import { PointTable } from "./point_table";
 import {
@@ -163,13 +164,12 @@ export class Designer {
     private mode: "draw" | "outline" | "bend" = "draw";
     private readonly library = new LibraryPanel(
         (file) => this.open(file),
-        () =>
-            !this.photograph?.drawable ||
-            confirm("The species takes the place of the photograph and of the lines on it. Go on?"),
         (title) => this.write({ "/facts/common_name": title }),
         () => this.portraitRenderer,
         () => this.isBusy,
     );
+    private readonly sources = new Sources();
+    private shownSource: number | undefined;
     private photograph: Source | undefined;
     private address: string | undefined;
     private opening: AbortController | undefined;
@@ -248,12 +248,19 @@ export class Designer {
             said: announce,
         });
         const everyAge = byId<HTMLInputElement>("every-age");
+        // Colours seldom change with age, all else does.
+        const ofEveryAge = { paint: true, ornaments: false, more: false };
+        let form: keyof typeof ofEveryAge = "paint";
+        everyAge.addEventListener("change", () => (ofEveryAge[form] = everyAge.checked));
         this.details = new DetailsPanel(() => everyAge.checked, forms);
         const panels = ["found", "paint", "ornaments", "more", "library"] as const;
         new PanelTabs(panels, (panel) => {
             const isForm = panel !== "found" && panel !== "library";
             byId("of-stage").hidden = !isForm;
-            if (isForm) void this.makeForms();
+            if (!isForm) return;
+            form = panel;
+            everyAge.checked = ofEveryAge[panel];
+            void this.makeForms();
         });
         new SpeciesChooser(this.library, (file) => void this.open(file));
         void this.library.begin();
@@ -290,12 +297,11 @@ export class Designer {
     async resume(): Promise<void> {
         const draft = await loadDraft();
         if (!draft || this.photograph || this.opening) return;
-        const { file, drawing, past, future } = draft;
         const whole = (each: Drawing): Drawing => ({ ...startOfDrawing, ...each });
-        const steps = { past: (past ?? []).map(whole), future: (future ?? []).map(whole) };
-        const linked = LibraryPanel.linked();
-        await this.open(file, whole(drawing), steps);
-        if (!this.photograph) return;
+        const linked = LibraryPanel.stored();
+        this.sources.restore(draft.files);
+        this.history.begin(whole(draft.drawing), draft.past.map(whole), draft.future.map(whole));
+        if (!(await this.goTo(draft.drawing.source))) return this.history.begin(startOfDrawing);
         if (linked) this.library.resume(linked);
         announce("The draft of the last visit is open again.");
     }
@@ -313,12 +319,27 @@ export class Designer {
         }
     }
 
-    /** Opens a photograph in place of the last one. */
-    async open(
-        file: Blob,
-        drawing = startOfDrawing,
-        steps: { past: Drawing[]; future: Drawing[] } = { past: [], future: [] },
-    ): Promise<void> {
+    /** Opens a photograph or the file of a species: one step, which undo takes back. */
+    async open(file: Blob): Promise<void> {
+        const opened = await this.read(file);
+        if (!opened) return;
+        const { photograph } = this;
+        const { source } = opened;
+        if (photograph instanceof Photograph && source instanceof Photograph && photograph.isAgain(source)) {
+            source.adopt(photograph);
+            Object.assign(this.sources.at(this.history.value.source) ?? {}, opened);
+            this.begin(opened);
+            return announce("The photograph is here again, with its lines.");
+        }
+        const drawing = { ...startOfDrawing, source: this.sources.add(opened) };
+        this.leave();
+        if (photograph || this.history.undoable) this.history.push(drawing);
+        else this.history.begin(drawing);
+        this.begin(opened);
+    }
+
+    /** Reads a file and its picture; undefined if that fails, which is said, or if another file is opened meanwhile. */
+    private async read(file: Blob): Promise<(Opened & { source: Source; address: string }) | undefined> {
         this.opening?.abort();
         const opening = new AbortController();
         this.opening = opening;
@@ -327,29 +348,62 @@ export class Designer {
         byId("drop-here").classList.add("sending");
         announce(isSpeciesFile(file) ? "Reading the species." : "Sending the photograph.");
         try {
-            const photograph = isSpeciesFile(file)
+            const source = isSpeciesFile(file)
                 ? await SpeciesFile.read(file)
                 : await Photograph.upload(file, opening.signal, announce);
-            const address = URL.createObjectURL(await photograph.picture(opening.signal));
-            if (opening.signal.aborted) return URL.revokeObjectURL(address);
-            this.history.begin(drawing, steps.past, steps.future);
-            this.begin(photograph, address);
+            const address = URL.createObjectURL(await source.picture(opening.signal));
+            if (!opening.signal.aborted) return { file, source, address };
+            URL.revokeObjectURL(address);
         } catch (error) {
-            if (opening.signal.aborted) return;
+            if (opening.signal.aborted) return undefined;
             this.state = this.photograph ? "ready" : "failed";
             this.showProblemOfPhoto(asRequestFailed(error, "The photograph cannot be read"));
         } finally {
-            if (this.opening === opening) byId("drop-here").classList.remove("sending");
+            if (this.opening === opening) {
+                this.opening = undefined;
+                byId("drop-here").classList.remove("sending");
+            }
         }
+        return undefined;
     }
 
-    private begin(photograph: Source, address: string): void {
-        this.photograph?.forget();
+    /** Shows what a step of the history has opened; returns false if it cannot be opened again. */
+    private async goTo(number: number | undefined): Promise<boolean> {
+        const opened = this.sources.at(number);
+        this.leave();
+        if (!opened) {
+            this.showNothing();
+            return true;
+        }
+        if (!opened.source && opened.file) {
+            const again = await this.read(opened.file);
+            if (!again) return false;
+            Object.assign(opened, again);
+        }
+        if (opened.source && !opened.address) {
+            const picture = await opened.source.picture(new AbortController().signal);
+            opened.address = URL.createObjectURL(picture);
+        }
+        this.begin(opened);
+        return true;
+    }
+
+    /** What is worked on is to be left: its draft in the library is found again when undo comes back to it. */
+    private leave(): void {
+        this.tracing?.abort();
+        const left = this.sources.at(this.shownSource);
+        if (left) left.link = this.library.linked;
         this.library.forget();
-        if (this.address) URL.revokeObjectURL(this.address);
+    }
+
+    /** Shows what the history is at. */
+    private begin({ source: photograph, address, link }: Opened): void {
+        if (!photograph || !address) return;
+        const isOther = this.photograph !== photograph;
+        this.shownSource = this.history.value.source;
         this.photograph = photograph;
         this.address = address;
-        this.fresh = true;
+        this.fresh = isOther;
         byId("welcome").hidden = true;
         for (const id of ["desk", "stage", "panel"]) byId(id).hidden = false;
         document.body.classList.add("working");
@@ -365,17 +419,47 @@ export class Designer {
                 !photograph.drawable &&
                 tools.some((tool) => tool === (button as HTMLElement).dataset["tool"]);
         byId("size").hidden = !photograph.drawable;
+        byId("forgotten").hidden = !photograph.isForgotten;
+        byId("forget").hidden = photograph.isForgotten;
+        if (link) this.library.resume(link);
         this.restored();
+        if (photograph.isForgotten) announce(byId("forgotten-text").textContent ?? "");
         if (!photograph.drawable) return this.edit("outline");
         if (photograph.stored.alpha) announce("It is cut out already: traced at once.");
         else announce(`${byId("sentence").textContent}.`);
     }
 
-    /** Forgets the photograph, here and at the service, and starts anew. */
+    /** Shows the page as it is before something is opened. */
+    private showNothing(): void {
+        this.photograph = undefined;
+        this.shownSource = undefined;
+        this.showTrace(undefined);
+        document.body.classList.remove("working");
+        for (const id of ["desk", "stage", "panel"]) byId(id).hidden = true;
+        byId("welcome").hidden = false;
+        byId("bring-back").hidden = !this.history.undoable;
+        byId("choose").focus();
+        this.state = "empty";
+    }
+
+    /** Forgets the photograph, here and at the service, and the draft. The step can be undone as far as the shape is
+     *  concerned. */
     private forget(): void {
         clearTimeout(this.saving);
+        const opened = this.sources.at(this.shownSource);
         this.photograph?.forget();
-        void forgetDraft().finally(() => location.reload());
+        if (opened?.source instanceof Photograph) {
+            if (opened.address) URL.revokeObjectURL(opened.address);
+            opened.file = opened.address = undefined;
+        }
+        this.history.push(startOfDrawing);
+        void this.goTo(undefined);
+        void forgetDraft();
+        announce(
+            opened?.file
+                ? "The species is put away. Undo brings it back."
+                : "The photograph is forgotten, here and at the service. Undo brings back its shape.",
+        );
     }
 
     /** The stage needs a size, which it has once it is shown. */
@@ -421,6 +505,7 @@ export class Designer {
             arrived: (file) => this.showOverPhoto(file),
             shown: (file) => {
                 this.file = file;
+                this.formerModel = undefined;
                 byId("stage-hint").hidden = true;
                 byId<HTMLButtonElement>("download-glb").disabled = false;
                 void stage.drawn().then(() => {
@@ -473,6 +558,8 @@ export class Designer {
             this.change({ gesture: withStrokes(gesture, this.sketch.tool, []) });
         });
         byId("forget").addEventListener("click", () => this.forget());
+        byId("bring-back").addEventListener("click", () => this.step("undo"));
+        byId("load-again").addEventListener("click", () => input.click());
         byId("trace-now").addEventListener("click", () => void this.retrace(true));
         const shown = byId<HTMLInputElement>("show-trace");
         shown.addEventListener("change", () =>
@@ -518,7 +605,7 @@ export class Designer {
     }
 
     private key(event: KeyboardEvent): void {
-        if (!(event.ctrlKey || event.metaKey) || event.altKey || !this.photograph) return;
+        if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
         // Fields of text have an undo of their own.
         const { target } = event;
         if (target instanceof HTMLInputElement && /^(number|text|search)$/.test(target.type))
@@ -535,10 +622,21 @@ export class Designer {
         const before = this.history.value;
         this.history[kind]();
         announce(kind === "undo" ? "Undone." : "Done again.");
+        if (this.history.value.source !== this.shownSource) return void this.stepTo(kind);
         this.followStep(before, this.history.value);
         const missing = this.missing();
         if (missing && missing !== this.sketch.tool) this.use(missing);
         this.restored();
+    }
+
+    /** Shows what another step has opened; if that cannot be had, the step is taken back. */
+    private async stepTo(kind: "undo" | "redo"): Promise<void> {
+        const { value } = this.history;
+        if (await this.goTo(value.source)) return;
+        if (this.history.value !== value) return;
+        this.history[kind === "undo" ? "redo" : "undo"]();
+        const now = this.sources.at(this.history.value.source);
+        if (now) this.begin(now);
     }
 
     /** A stroke is complete: the next one follows by itself. */
@@ -868,11 +966,23 @@ export class Designer {
     private save(): void {
         clearTimeout(this.saving);
         this.saving = setTimeout(() => {
-            const { photograph } = this;
             const { past, future } = this.history.steps;
             const drawing = this.history.value;
-            if (photograph) void saveDraft({ file: photograph.file, drawing, past, future });
+            const steps = [...past, drawing, ...future];
+            this.sources.prune(steps);
+            if (this.photograph?.isForgotten) this.saveShape();
+            else if (this.photograph)
+                void saveDraft({ drawing, past, future, files: this.sources.files(steps) });
         }, saveDelayMs);
+    }
+
+    /** Saves what is left of a forgotten photograph as the file of a species. */
+    private saveShape(): void {
+        const number = this.shownSource;
+        if (!this.trace || number === undefined) return;
+        const file = new Blob([JSON.stringify(this.trace.species)], { type: "application/json" });
+        const drawing = { ...startOfDrawing, source: number };
+        void saveDraft({ drawing, past: [], future: [], files: new Map([[number, file]]) });
     }
 
     private missing(): "axis" | "cap" | undefined {
@@ -1010,6 +1120,8 @@ export class Designer {
         byId<HTMLInputElement>("height").placeholder =
             height === undefined ? "" : String(Math.round(height * 1000));
         if (trace) return this.showStage(this.shownStage);
+        if (byId("stage-hint").hidden)
+            this.formerModel ??= `The model of ${this.fresh ? "what was open" : "the lines"} before`;
         this.live?.cancel();
         this.overPhoto.clear();
         this.strip.show(undefined, 0, undefined);
@@ -1089,6 +1201,17 @@ export class Designer {
     /** What is shown belongs to an earlier drawing, because this one cannot be traced. */
     private set stale(stale: boolean) {
         document.body.classList.toggle("stale", stale);
+    }
+
+    /** What is said of a model on the stage that does not belong to what is drawn now; undefined if it does. */
+    private get formerModel(): string | undefined {
+        return byId("former-note").hidden ? undefined : (byId("former-note").textContent ?? "");
+    }
+
+    private set formerModel(text: string | undefined) {
+        byId("former-note").hidden = text === undefined;
+        byId("former-note").textContent = text ?? "";
+        byId("stage").classList.toggle("former", text !== undefined);
     }
 
     /** What the page is at, for its style and for tests. */

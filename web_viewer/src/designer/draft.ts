@@ -1,17 +1,30 @@
-// The draft that survives a reload: the file of the photograph and what was drawn on it, in the
+// The draft that survives a reload: the files that were opened and what was drawn on them, in the
 // browser's own database. Without one, as in some private windows, there is no draft.
 import type { Drawing } from "./gesture";
 
 export interface Draft {
-    file: Blob;
     drawing: Drawing;
     /** Drawings before and after it, the nearest last. */
-    past?: readonly Drawing[];
-    future?: readonly Drawing[];
+    past: readonly Drawing[];
+    future: readonly Drawing[];
+    /** What the drawings name by number. */
+    files: ReadonlyMap<number, Blob>;
+}
+
+/** As it is stored; each file has an entry of its own, which is written once. */
+interface StoredDraft extends Partial<Draft> {
+    drawing: Drawing;
+    numbers?: readonly number[];
+    /** The only one, of drafts of earlier versions of the page. */
+    file?: Blob;
 }
 
 const store = "drafts";
 const key = "current";
+const keyOf = (number: number): string => `file ${number}`;
+
+/** Files that this visit has stored. */
+let written = new Map<number, Blob>();
 
 function database(): Promise<IDBDatabase> {
     return new Promise((resolve, reject) => {
@@ -39,14 +52,45 @@ async function act<T>(
     }
 }
 
+/** Returns the draft without steps whose file is lost. */
 export async function loadDraft(): Promise<Draft | undefined> {
-    return act("readonly", (objects) => objects.get(key) as IDBRequest<Draft | undefined>);
+    const stored = await act(
+        "readonly",
+        (objects) => objects.get(key) as IDBRequest<StoredDraft | undefined>,
+    );
+    if (!stored) return undefined;
+    const files = new Map<number, Blob>();
+    for (const number of stored.numbers ?? []) {
+        const file = await act(
+            "readonly",
+            (objects) => objects.get(keyOf(number)) as IDBRequest<Blob | undefined>,
+        );
+        if (file) files.set(number, file);
+    }
+    written = new Map(files);
+    if (stored.file) files.set(1, stored.file);
+    const numbered = (drawing: Drawing): Drawing => (stored.file ? { ...drawing, source: 1 } : drawing);
+    const has = ({ source }: Drawing): boolean => source !== undefined && files.has(source);
+    const drawing = numbered(stored.drawing);
+    if (!has(drawing)) return undefined;
+    const [past, future] = [stored.past, stored.future].map((steps) =>
+        (steps ?? []).map(numbered).filter(has),
+    );
+    return { drawing, past: past ?? [], future: future ?? [], files };
 }
 
-export async function saveDraft(draft: Draft): Promise<void> {
-    await act("readwrite", (objects) => objects.put(draft, key));
+export async function saveDraft({ files, ...steps }: Draft): Promise<void> {
+    const done = await act("readwrite", (objects) => {
+        for (const [number, file] of files)
+            if (written.get(number) !== file) objects.put(file, keyOf(number));
+        for (const number of written.keys())
+            if (!files.has(number)) objects.delete(keyOf(number));
+        return objects.put({ ...steps, numbers: [...files.keys()] }, key);
+    });
+    if (done !== undefined) written = new Map(files);
 }
 
 export async function forgetDraft(): Promise<void> {
-    await act("readwrite", (objects) => objects.delete(key));
+    written = new Map();
+    await act("readwrite", (objects) => objects.clear());
 }

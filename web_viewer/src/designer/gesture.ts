@@ -21,8 +21,10 @@ export interface Gesture {
     frame: Stroke;
 }
 
-/** Everything that a trace depends on beside the photograph; one step of undo. */
+/** Everything that a trace depends on; one step of undo. */
 export interface Drawing {
+    /** Number of the photograph or species that was opened; undefined before the first and after it was forgotten. */
+    source?: number | undefined;
     gesture: Gesture;
     /** A species, or "auto" for the one that is most alike. */
     template: string;

@@ -25,7 +25,7 @@ export const linkKey = "sporeprint-library-draft";
 const saveDelayMs = 2000;
 
 /** The draft in the library that is worked on. */
-interface Link {
+export interface Link {
     id: string;
     name: string;
     etag: string;
@@ -99,11 +99,9 @@ export class LibraryPanel implements OwnSpecies {
     private readonly entrance: HTMLFormElement;
     private readonly desk: HTMLElement;
 
-    /** `opened` is called with a species of the library; `mayReplace` returns whether it may replace what is worked
-     *  on; `titled` is called with a new title of it. */
+    /** `opened` is called with a species of the library, `titled` with a new title of it. */
     constructor(
         private readonly opened: (file: File) => Promise<void>,
-        private readonly mayReplace: () => boolean,
         titled: (title: string) => void,
         portraits: () => Portraits,
         busy: () => boolean,
@@ -209,14 +207,19 @@ export class LibraryPanel implements OwnSpecies {
     }
 
     /** The draft in the library that the draft of this browser belongs to; undefined for none. */
-    static linked(): { id: string; name: string; etag: string } | undefined {
+    static stored(): { id: string; name: string; etag: string } | undefined {
         const stored = localStorage.getItem(linkKey);
         return stored ? (JSON.parse(stored) as { id: string; name: string; etag: string }) : undefined;
     }
 
-    /** Goes on with a draft in the library, after the draft of this browser was opened again. */
-    resume(link: { id: string; name: string; etag: string }): void {
-        this.follow({ ...link, text: "" });
+    /** The draft that is worked on, to come back to it. */
+    get linked(): Link | undefined {
+        return this.link;
+    }
+
+    /** Goes on with a draft in the library, after what it belongs to was opened again. */
+    resume(link: { id: string; name: string; etag: string; text?: string }): void {
+        this.follow({ text: "", ...link });
         this.name.value = link.name;
         this.say(`${link.id} · draft`);
         void this.showList();
@@ -486,7 +489,7 @@ export class LibraryPanel implements OwnSpecies {
 
     private async openDraft(id: string, name: string): Promise<void> {
         const { library } = this;
-        if (!library || !this.mayReplace()) return;
+        if (!library) return;
         const { text, etag } = await library.draft(id);
         await this.opened(new File([text], `${name}.json`, { type: "application/json" }));
         const species = JSON.parse(text) as Species;

@@ -58,10 +58,13 @@ export interface Trace {
 
 /** What is worked on: a photograph, or the file of a species. */
 export interface Source {
-    readonly file: Blob;
+    /** Undefined once it was forgotten. */
+    readonly file: Blob | undefined;
     readonly stored: Extent & { alpha: boolean };
     /** Lines can be drawn on it. */
     readonly drawable: boolean;
+    /** Its picture is gone, and what was made of it is here. */
+    readonly isForgotten: boolean;
     /** Returns the picture that all pixels are counted in. */
     picture(signal: AbortSignal): Promise<Blob>;
     trace(drawing: Drawing, signal: AbortSignal): Promise<Trace>;
@@ -74,11 +77,11 @@ const mostCached = 32;
 
 /** One photograph: the file, what the service stored of it, and the traces made of it. */
 export class Photograph implements Source {
-    readonly drawable = true;
-    private readonly traces = new Map<string, Trace>();
+    private traces = new Map<string, Trace>();
+    private bytes = 0;
 
     private constructor(
-        readonly file: Blob,
+        public file: Blob | undefined,
         private readonly report: (text: string) => void,
         public stored: StoredPhoto,
     ) {}
@@ -92,8 +95,33 @@ export class Photograph implements Source {
         return new Photograph(file, report, await store(file, signal));
     }
 
-    /** Returns the stored copy, upright and at the size that all pixels are counted in. */
+    get drawable(): boolean {
+        return !this.isForgotten;
+    }
+
+    get isForgotten(): boolean {
+        return this.file === undefined;
+    }
+
+    /** Returns true if this is a forgotten photograph and the other one has its size in bytes and pixels. */
+    isAgain(other: Photograph): boolean {
+        const { width, height } = this.stored;
+        const isAlike = other.stored.width === width && other.stored.height === height;
+        return this.isForgotten && isAlike && other.file?.size === this.bytes;
+    }
+
+    /** Takes over the traces of the same photograph, before it was forgotten. */
+    adopt({ traces }: Photograph): void {
+        this.traces = traces;
+    }
+
+    /** Returns the stored copy, upright and at the size that all pixels are counted in; paper once it is forgotten. */
     async picture(signal: AbortSignal): Promise<Blob> {
+        if (this.isForgotten) {
+            const { width, height } = this.stored;
+            const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}"><path fill="#f7f1e3" d="M0 0H${width}V${height}H0Z"/></svg>`;
+            return new Blob([text], { type: "image/svg+xml" });
+        }
         const response = await this.whileStored(signal, () =>
             send(`v1/photos/${this.stored.photo}.jpg`, { signal }),
         );
@@ -105,6 +133,8 @@ export class Photograph implements Source {
         const key = JSON.stringify([gesture, order]);
         const known = this.traces.get(key);
         if (known) return known;
+        if (this.isForgotten)
+            throw new RequestFailed("The photograph is forgotten", "load it again to trace it anew", 0);
         const response = await this.whileStored(signal, () =>
             send("v1/traces", {
                 method: "POST",
@@ -123,8 +153,10 @@ export class Photograph implements Source {
         return trace;
     }
 
-    /** Asks the service to forget its copy; it would do so by itself in half an hour. */
+    /** Forgets the file, and asks the service to forget its copy; it would do so by itself in half an hour. */
     forget(): void {
+        this.bytes = this.file?.size ?? this.bytes;
+        this.file = undefined;
         send(`v1/photos/${this.stored.photo}.jpg`, { method: "DELETE", keepalive: true }).catch(
             () => undefined,
         );
@@ -138,6 +170,7 @@ export class Photograph implements Source {
             const forgotten = error instanceof RequestFailed && error.status === 404;
             if (!forgotten || error.items.some(({ parameter }) => parameter === "/template"))
                 throw error;
+            if (!this.file) throw error;
             this.stored = await store(this.file, signal);
             this.report("The service had forgotten the photograph; it was sent again.");
             return act();

@@ -72,6 +72,7 @@ export function stageOf({ stages }: Species): number {
 
 export class SpeciesFile implements Source {
     readonly drawable = false;
+    readonly isForgotten = false;
     readonly stored: Extent & { alpha: boolean } = { width: side, height: side, alpha: true };
     private readonly silhouette: Silhouette | undefined;
     private readonly axis: [Point, Point];
