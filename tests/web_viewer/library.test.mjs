@@ -11,10 +11,13 @@ const token = process.env.SPOREPRINT_TOKEN ?? "";
 const headers = { Authorization: `Bearer ${token}`, "Content-Type": "application/json" };
 
 let browser;
+let hasLibrary;
 let picture;
 
 before(async () => {
-    assert.match(token, /^spk_/, "SPOREPRINT_TOKEN is that of the server's library");
+    const { links } = await (await fetch(`${base}/v1`)).json();
+    hasLibrary = "library" in links;
+    if (hasLibrary) assert.match(token, /^spk_/, "SPOREPRINT_TOKEN is that of the server's library");
     browser = await launchBrowser();
     const query = "width=500&height=500&view=front&background=transparent";
     const response = await fetch(`${base}/v1/mushrooms/boletus_edulis.png?${query}`);
@@ -275,4 +278,77 @@ test("own species are renamed, taken out of lists, shared, saved as files and de
     await page.locator("#library-file").setInputFiles({ ...wrong, buffer: Buffer.from(JSON.stringify(file)) });
     await page.locator("[data-library='~me.cep_imported']", { hasText: "@1" }).waitFor();
     await page.context().close();
+});
+
+test("touch alone goes from a photograph to a published species", async (t) => {
+    if (!hasLibrary) return t.skip("the server has no library");
+    const context = await browser.newContext({
+        reducedMotion: "reduce",
+        viewport: { width: 390, height: 844 },
+        hasTouch: true,
+        isMobile: true,
+    });
+    const page = await context.newPage();
+    page.setDefaultTimeout(90_000);
+    const ready = () =>
+        page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
+    const session = await context.newCDPSession(page);
+    const touch = (type, ...points) =>
+        session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    /** A finger goes from one place of the window to another. */
+    const slide = async (from, to) => {
+        await touch("touchStart", from);
+        for (let step = 1; step <= 5; ++step)
+            await touch("touchMove", from.map((start, axis) => start + ((to[axis] - start) * step) / 5));
+        await touch("touchEnd");
+    };
+    const seen = () => page.locator("#sketch").scrollIntoViewIfNeeded();
+    const onScreen = (place) =>
+        page.evaluate(([x, y]) => {
+            const matrix = document.getElementById("sketch").getScreenCTM();
+            const { x: left, y: top } = new DOMPoint(x, y).matrixTransform(matrix);
+            return [left, top];
+        }, place);
+    await page.goto(`${base}/editor#token=${token}`);
+    const query = "width=800&height=800&view=front&background=grey";
+    const response = await fetch(`${base}/v1/mushrooms/russula_emetica.png?${query}`);
+    const photograph = { name: "russula.png", mimeType: "image/png", buffer: Buffer.from(await response.arrayBuffer()) };
+    page.once("filechooser", (chooser) => chooser.setFiles(photograph));
+    await page.locator("#choose").tap();
+    await page.locator("#sentence", { hasText: "Draw from the foot to the top" }).waitFor();
+    await ready();
+    for (const line of [[[447, 705], [405, 42]], [[95, 165], [708, 92]]]) {
+        await seen();
+        await slide(await onScreen(line[0]), await onScreen(line[1]));
+    }
+    await page.locator("#sketch .outline").waitFor({ state: "attached" });
+    await ready();
+    const cap = page.locator('#found-numbers dt:text-is("Cap") + dd');
+    const traced = await cap.textContent();
+    await page.locator('#tools [data-tool="outline"]').tap();
+    await seen();
+    const { x, y, width, height } = await page
+        .locator('.handle[role=button][aria-label^="cap, point 2 "] .knob')
+        .boundingBox();
+    // A point is held above the finger.
+    await slide([x + width / 2, y + height / 2], [x + width / 2 + 14, y + height / 2 + 40]);
+    await page.locator("#found-numbers", { hasText: "traced, then edited" }).waitFor({ state: "attached" });
+    await ready();
+    assert.notEqual(await cap.textContent(), traced);
+    await page.locator("#tab-library").tap();
+    const name = page.locator("#library-name");
+    await name.tap();
+    await name.fill("russula_by_touch");
+    await page.locator("#library-publish").tap();
+    await page.locator("#library-address").waitFor();
+    const model = await fetch(`${base}/v1/mushrooms/~me.russula_by_touch@1.glb?lod=3&textures=none`);
+    assert.equal(model.status, 200);
+    await model.arrayBuffer();
+    const small = await page
+        .locator("#panel :is(button, select, input[type=text]):visible, #panel summary:visible")
+        .evaluateAll((all) =>
+            all.filter((one) => one.getBoundingClientRect().height < 44).map((one) => one.id || one.textContent),
+        );
+    assert.deepEqual(small, []);
+    await context.close();
 });
