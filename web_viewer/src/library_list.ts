@@ -35,10 +35,13 @@ export function isOfLibrary(id: string): boolean {
     return id.startsWith("~");
 }
 
-/** Returns true if the service has a library. */
-export async function hasLibrary(): Promise<boolean> {
-    const { links } = await getJson<{ links: Record<string, string> }>("v1");
-    return "library" in links;
+let known: Promise<boolean> | undefined;
+
+/** Returns true if the service has a library; one request is enough. */
+export function hasLibrary(): Promise<boolean> {
+    known ??= getJson<{ links: Record<string, string> }>("v1").then(({ links }) => "library" in links);
+    known.catch(() => (known = undefined));
+    return known;
 }
 
 /** Returns the query of a page of the list: those whose name or title contains a text, after a name. */

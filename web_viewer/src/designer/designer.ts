@@ -319,23 +319,25 @@ export class Designer {
         }
     }
 
-    /** Opens a photograph or the file of a species: one step, which undo takes back. */
-    async open(file: Blob): Promise<void> {
+    /** Opens a photograph or the file of a species: one step, which undo takes back. Returns false if it cannot. */
+    async open(file: Blob): Promise<boolean> {
         const opened = await this.read(file);
-        if (!opened) return;
+        if (!opened) return false;
         const { photograph } = this;
         const { source } = opened;
         if (photograph instanceof Photograph && source instanceof Photograph && photograph.isAgain(source)) {
             source.adopt(photograph);
             Object.assign(this.sources.at(this.history.value.source) ?? {}, opened);
             this.begin(opened);
-            return announce("The photograph is here again, with its lines.");
+            announce("The photograph is here again, with its lines.");
+            return true;
         }
         const drawing = { ...startOfDrawing, source: this.sources.add(opened) };
         this.leave();
         if (photograph || this.history.undoable) this.history.push(drawing);
         else this.history.begin(drawing);
         this.begin(opened);
+        return true;
     }
 
     /** Reads a file and its picture; undefined if that fails, which is said, or if another file is opened meanwhile. */
@@ -636,7 +638,9 @@ export class Designer {
         if (this.history.value !== value) return;
         this.history[kind === "undo" ? "redo" : "undo"]();
         const now = this.sources.at(this.history.value.source);
-        if (now) this.begin(now);
+        if (!now) return this.showNothing();
+        this.begin(now);
+        this.say("photo", "What was open before cannot be opened again.");
     }
 
     /** A stroke is complete: the next one follows by itself. */

@@ -89,6 +89,7 @@ export function libraryEntry(
         hint.textContent = "Unlisted it is in no list; its published addresses go on. Publish it again to list it.";
     } else if (state === "unlisted")
         hint.textContent = "It is in no list, and its published addresses go on. Publish it again to list it.";
+    if (newest > 0) row.append(make("a", { href: `./?species=${id}@${newest}` }, "In the viewer"));
     if (mayWrite) row.append(actionButton("Delete…", () => actions.purge(species), "", "purge"));
     const more = make(
         "details",
@@ -141,7 +142,7 @@ async function showLinks(
         "make-link",
     );
     host.replaceChildren(
-        make("p", { class: "hint" }, "Whoever has a link sees the draft as it is then, and can change nothing."),
+        make("p", { class: "hint" }, "With a link anybody sees the draft as it is then, and can change nothing."),
         make("ul", {}, ...items),
     );
     if (mayWrite) host.append(make("div", { class: "row" }, create, duration));

@@ -99,9 +99,10 @@ export class LibraryPanel implements OwnSpecies {
     private readonly entrance: HTMLFormElement;
     private readonly desk: HTMLElement;
 
-    /** `opened` is called with a species of the library, `titled` with a new title of it. */
+    /** `opened` is called with a species of the library and returns whether it is shown, `titled` is called with a
+     *  new title. */
     constructor(
-        private readonly opened: (file: File) => Promise<void>,
+        private readonly opened: (file: File) => Promise<boolean>,
         titled: (title: string) => void,
         portraits: () => Portraits,
         busy: () => boolean,
@@ -157,7 +158,7 @@ export class LibraryPanel implements OwnSpecies {
         this.title.addEventListener("change", () => {
             const title = this.title.value.trim();
             if (title) titled(title);
-            else this.show(this.species);
+            else this.showTitle();
         });
         this.load.addEventListener("click", () => this.file.click());
         this.file.addEventListener("change", () => {
@@ -199,7 +200,7 @@ export class LibraryPanel implements OwnSpecies {
         clearTimeout(this.saving);
         if (species && !this.link && !this.name.value)
             this.name.value = nameLike(species.facts?.common_name ?? species.id);
-        this.title.value = species?.facts?.common_name ?? "";
+        if (document.activeElement !== this.title) this.showTitle();
         this.showState();
         const { link } = this;
         if (!species || !link || this.textOf(link.name) === link.text || !this.conflict.hidden) return;
@@ -210,6 +211,10 @@ export class LibraryPanel implements OwnSpecies {
     static stored(): { id: string; name: string; etag: string } | undefined {
         const stored = localStorage.getItem(linkKey);
         return stored ? (JSON.parse(stored) as { id: string; name: string; etag: string }) : undefined;
+    }
+
+    private showTitle(): void {
+        this.title.value = this.species?.facts?.common_name ?? "";
     }
 
     /** The draft that is worked on, to come back to it. */
@@ -491,7 +496,9 @@ export class LibraryPanel implements OwnSpecies {
         const { library } = this;
         if (!library) return;
         const { text, etag } = await library.draft(id);
-        await this.opened(new File([text], `${name}.json`, { type: "application/json" }));
+        const file = new File([text], `${name}.json`, { type: "application/json" });
+        // What is worked on must not be saved in its place.
+        if (!(await this.opened(file))) return this.say(`${id} cannot be opened.`);
         const species = JSON.parse(text) as Species;
         this.follow({ id, name, etag, text: JSON.stringify({ ...species, id: name }) });
         this.name.value = name;
