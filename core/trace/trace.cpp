@@ -286,7 +286,7 @@ void refine(Traced& best, const FoundOutline& found, const MeasuredOutline& on,
         if (made.method == TraceMethod::fitted) made.method = TraceMethod::refined;
         if (edge == LowerEdge::margin) made.pitch_deg = refined->pitch_deg;
         const double distance = distance_of(made);
-        if (distance >= (edge == LowerEdge::margin ? of_pitch : 1.0) * least) continue;
+        if (!(distance < (edge == LowerEdge::margin ? of_pitch : 1.0) * least)) continue;
         least = distance;
         best = std::move(made);
     }
