@@ -403,7 +403,7 @@ export class Breeder {
 
     private async load(births: readonly Birth[], signal: AbortSignal): Promise<void> {
         const failures: RequestFailed[] = [];
-        const partly = setTimeout(() => this.grid.drawNow(), partlyShownMs);
+        const partly = setTimeout(() => this.grid.drawChanged(), partlyShownMs);
         let [arrived, work] = [0, 0];
         const one = async (birth: Birth, index: number): Promise<void> => {
             try {
@@ -426,8 +426,8 @@ export class Breeder {
             clearTimeout(partly);
         }
         signal.throwIfAborted();
+        this.grid.drawChanged();
         if (failures.length === childCount && failures[0]) throw failures[0];
-        this.grid.drawNow();
         const end = performance.now();
         this.timings = {
             service: arrived - this.began,

@@ -52,6 +52,8 @@ interface Cell {
     caption: HTMLElement;
     message: HTMLElement;
     label: string;
+    /** The picture is not that of what is shown. */
+    isStale: boolean;
     shown?: Shown;
     /** The last ones before it. They stay until others take their place, since the compiled programs of their
      *  materials would be lost with them. */
@@ -167,11 +169,16 @@ export class ChildGrid {
         for (const texture of texturesOf(model)) texture.anisotropy = 1;
         const bounds = boundsOf(model);
         cell.shown = { model, bounds, stage };
+        cell.isStale = true;
         cell.item.classList.remove("pending");
         showLabel(cell);
-        if (!drawn) return;
-        if (this.common) this.drawSoon();
-        else this.drawCell(cell);
+        if (drawn) this.drawChanged();
+    }
+
+    /** Draws the children that are new, or all of them if one scale is shared. */
+    drawChanged(): void {
+        if (this.common) return this.drawNow();
+        for (const cell of this.cells) if (cell.isStale) this.drawCell(cell);
     }
 
     /** Says in a cell why its child cannot be shown. */
@@ -183,7 +190,7 @@ export class ChildGrid {
         cell.message.hidden = false;
         cell.message.textContent = text;
         cell.button.disabled = true;
-        this.drawSoon();
+        cell.isStale = true;
     }
 
     set sameScale(same: boolean) {
@@ -222,8 +229,7 @@ export class ChildGrid {
         return small.toDataURL("image/webp", 0.9);
     }
 
-    /** Draws all children at once. */
-    drawNow(): void {
+    private drawNow(): void {
         cancelAnimationFrame(this.frame);
         this.frame = 0;
         const { renderer } = this.lit;
@@ -232,7 +238,9 @@ export class ChildGrid {
         for (const cell of this.cells) this.drawCell(cell);
     }
 
-    private drawCell({ item, shown }: Cell): void {
+    private drawCell(cell: Cell): void {
+        const { item, shown } = cell;
+        cell.isStale = false;
         const whole = this.host.getBoundingClientRect();
         const { left, bottom, width, height } = item.getBoundingClientRect();
         const place = { left: left - whole.left, bottom: whole.bottom - bottom, width, height };
@@ -319,7 +327,7 @@ export class ChildGrid {
             if (this.isShown(index)) this.events.save(index);
         });
         const item = make("li", { class: "cell" }, button, caption, message, save);
-        return { item, button, caption, message, label: "", retired: {} };
+        return { item, button, caption, message, label: "", isStale: false, retired: {} };
     }
 
     private rove(index: number): void {
