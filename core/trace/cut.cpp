@@ -318,10 +318,22 @@ void require_on(const PictureSize& photo, const Gesture& gesture) {
 
 Mask cut_out_of_copy(const Picture& large, const Gesture& gesture) {
     const Picture small = reduced(large, small_side);
-    const Seeds of_large = seeds_of(gesture, large),
-                of_small =
-                    seeds_of(gesture.scaled(static_cast<double>(small.width) / large.width), small);
-    const Mask first = cleaned(SmallCut(small, of_small).solved(), of_small.mushroom);
+    const double scale = static_cast<double>(small.width) / large.width;
+    Gesture on_small = gesture.scaled(scale);
+    Seeds of_small = seeds_of(on_small, small);
+    Mask first = cleaned(SmallCut(small, of_small).solved(), of_small.mushroom);
+    // Few people begin and end a line right on the border; what is beyond is neither mushroom nor its colour.
+    bool is_beyond = false;
+    for (Stroke* const stroke : {&on_small.axis, &on_small.cap}) {
+        Stroke within = without_overshoot(*stroke, first, stroke_width);
+        is_beyond = is_beyond || within.size() != stroke->size();
+        *stroke = std::move(within);
+    }
+    if (is_beyond) {
+        of_small = seeds_of(on_small, small);
+        first = cleaned(SmallCut(small, of_small).solved(), of_small.mushroom);
+    }
+    const Seeds of_large = seeds_of(is_beyond ? on_small.scaled(1.0 / scale) : gesture, large);
     if (first.area() == 0)
         throw InvalidInput("/gesture/axis",
                            "nothing hangs together on this line; draw it from the foot to the top");

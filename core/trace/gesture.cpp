@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/trace/contour.h"
 
@@ -66,6 +67,47 @@ bool is_reversed(const Stroke& axis, const Mask& mask) {
     double first = 0.0, last = 0.0;
     each([&](double at) { (at < 0.5 * (least + most) ? first : last) += 1.0; });
     return last <= clearly * first;
+}
+
+Stroke without_overshoot(const Stroke& stroke, const Mask& mask, double width) {
+    constexpr double most_share = 0.2;
+    // Beside the end of a line the cut often has a wedge of what is there, such as a shadow.
+    constexpr double narrow_share = 0.3;
+    const auto is_in = [&mask](const glm::dvec2& at) {
+        return at.x >= 0.0 && at.y >= 0.0 && at.x < mask.width && at.y < mask.height &&
+               mask.at(static_cast<int>(at.x), static_cast<int>(at.y));
+    };
+    Stroke points;
+    std::vector<int> widths;
+    for (std::size_t i = 0; i + 1 < stroke.size(); ++i) {
+        const glm::dvec2 along = stroke[i + 1] - stroke[i];
+        const double length = glm::length(along);
+        if (length == 0.0) continue;
+        const glm::dvec2 across{-along.y / length, along.x / length};
+        const int steps = std::max(1, static_cast<int>(length));
+        for (int k = 0; k < steps; ++k) {
+            const glm::dvec2 at = stroke[i] + along * (k / static_cast<double>(steps));
+            int wide = 1;
+            for (const double side : {-1.0, 1.0})
+                for (int reach = 1; is_in(at + across * (side * reach)); ++reach) ++wide;
+            points.push_back(at);
+            widths.push_back(wide);
+        }
+    }
+    if (points.empty()) return stroke;
+    points.push_back(stroke.back());
+    widths.push_back(widths.back());
+    std::vector<int> sorted = widths;
+    std::sort(sorted.begin(), sorted.end());
+    // The border of a mask is a pixel off at times.
+    const double most_wide = std::max(width + 2.0, narrow_share * sorted[sorted.size() / 2]);
+    const auto is_wide = [most_wide](int wide) { return wide > most_wide; };
+    const auto most = static_cast<std::ptrdiff_t>(most_share * static_cast<double>(points.size()));
+    const auto first = std::find_if(widths.begin(), widths.end(), is_wide) - widths.begin();
+    const auto last = std::find_if(widths.rbegin(), widths.rend(), is_wide) - widths.rbegin();
+    const std::ptrdiff_t from = first <= most ? first : 0, to = last <= most ? last : 0;
+    if (from == 0 && to == 0) return stroke;
+    return {points.begin() + from, points.end() - to};
 }
 
 Mask drawn(const std::vector<Stroke>& strokes, int columns, int rows, double width) {

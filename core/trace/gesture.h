@@ -39,6 +39,14 @@ struct Gesture {
 /// axis  at least two points, in pixels of the mask
 [[nodiscard]] bool is_reversed(const Stroke& axis, const Mask& mask);
 
+/// Returns a stroke without those ends at which a mask is hardly wider than the stroke itself: it was drawn beyond what
+/// it is on, and the mask has it there for no other reason. Narrow is also what is less than three tenths of how wide
+/// the mask is at half of the stroke's points. An end of more than a fifth of the stroke stays, since it
+/// may be a thin stem.
+///
+/// width  of the stroke in the mask, pixels
+[[nodiscard]] Stroke without_overshoot(const Stroke& stroke, const Mask& mask, double width);
+
 /// Returns the pixels within half a width of strokes; what lies beyond the border is left out.
 ///
 /// width  of the strokes, pixels

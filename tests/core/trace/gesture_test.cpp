@@ -27,6 +27,24 @@ TEST(Drawn, LeavesOutWhatIsBeyondTheBorder) {
     EXPECT_EQ(trace::drawn({{}}, 20, 20, 2.0).area(), 0U);
 }
 
+TEST(WithoutOvershoot, EndsWhereTheMaskIsNoWiderThanTheStroke) {
+    // A block from row 30 to 69, and the stroke itself beyond it.
+    const trace::Stroke stroke = {{50.0, 20.5}, {50.0, 75.5}};
+    trace::Mask mask = trace::drawn({stroke}, 100, 100, 3.0);
+    for (int y = 30; y < 70; ++y)
+        for (int x = 30; x < 70; ++x) mask.inside[mask.index(x, y)] = 1;
+    const trace::Stroke within = trace::without_overshoot(stroke, mask, 3.0);
+    EXPECT_NEAR(within.front().y, 30.0, 1.0);
+    EXPECT_NEAR(within.back().y, 69.0, 1.0);
+    const trace::Stroke inside = {{50.0, 35.0}, {50.0, 65.0}};
+    EXPECT_EQ(trace::without_overshoot(inside, mask, 3.0), inside);
+    const trace::Stroke thin_stem = {{50.0, 0.5}, {50.0, 69.5}};
+    EXPECT_EQ(trace::without_overshoot(thin_stem, mask, 3.0), thin_stem)
+        << "more than a fifth is a part of the mushroom";
+    EXPECT_EQ(trace::without_overshoot({}, mask, 3.0), trace::Stroke{});
+    EXPECT_EQ(trace::without_overshoot({{5.0, 5.0}}, mask, 3.0).size(), 1U);
+}
+
 TEST(UprightLine, IsFromTheFootToTheMiddleOfTheCap) {
     trace::Mask mask(60, 100);
     const auto fill = [&](int left, int top, int right, int bottom) {
