@@ -122,8 +122,8 @@ struct ToBeLoaded {
 /// moment only: the species may be withdrawn, and without the number of a version another one may be published.
 ///
 /// is_open  a species was named without the number of its version
-Plan with_guests(const std::shared_ptr<Context>& context, const Request& request,
-                 const RoutedRequest& routed, bool is_open) {
+Plan plan_with_guests(const std::shared_ptr<Context>& context, const Request& request,
+                      const RoutedRequest& routed, bool is_open) {
     Plan plan = plan_route(*context, request, routed);
     const auto finish = [is_open](Response& response) {
         response.cacheable = false;
@@ -157,7 +157,7 @@ Plan plan_with_library(Context& context, const Request& request, const RoutedReq
     bool is_open = false;
     for (;;) {
         try {
-            return own ? with_guests(own, request, routed, is_open)
+            return own ? plan_with_guests(own, request, routed, is_open)
                        : plan_route(context, request, routed);
         } catch (const SpeciesOfLibrary& wanted) {
             if (!context.library) return context.responses.problem(request, 404, no_library);
@@ -169,10 +169,7 @@ Plan plan_with_library(Context& context, const Request& request, const RoutedReq
             ToBeLoaded missing;
             for (const std::string& id : wanted.ids()) {
                 Library::Found found = context.library->find(id);
-                if (found.status == 410)
-                    return withdrawn(context.responses, request, found.message);
-                if (found.status != 200)
-                    return context.responses.problem(request, found.status, found.message);
+                if (found.status != 200) return not_found(context.responses, request, found);
                 if (!found.entry && loads) found.entry = context.library->load(found.name);
                 if (!found.entry) {
                     missing.names.push_back(found.name);
@@ -182,9 +179,7 @@ Plan plan_with_library(Context& context, const Request& request, const RoutedReq
                 guests.push_back({id, std::move(found.entry)});
             }
             if (!missing.names.empty()) throw ToBeLoaded(std::move(missing));
-            own = std::make_shared<Context>(context);
-            own->atlas = std::make_shared<const Atlas>(context.atlas, guests);
-            own->has_guests = true;
+            own = with_guests(context, guests);
         }
     }
 }

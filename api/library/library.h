@@ -57,8 +57,8 @@ class Library {
     /// throws  Unavailable, GenerationError; InvalidInput if it was purged meanwhile
     std::shared_ptr<const AtlasEntry> load(const LibraryName& name);
 
-    /// Returns the number of the next write, which makes the keys of all writes differ.
-    [[nodiscard]] std::uint64_t next_write() { return ++writes_; }
+    /// Returns the key of a job that no other job has: what one caller may see or write is shared with nobody.
+    [[nodiscard]] std::string next_key() { return "library " + std::to_string(++jobs_); }
 
   private:
     struct Published {
@@ -73,7 +73,7 @@ class Library {
     std::map<std::string, Published, std::less<>> published_;  ///< by "~owner.name"
     std::mutex refresh_mutex_;
     std::int64_t serial_ = 0;  ///< of the last change in `published_`; guarded by refresh_mutex_
-    std::atomic<std::uint64_t> writes_{0};
+    std::atomic<std::uint64_t> jobs_{0};
 };
 
 /// Returns an entry of an atlas for a species of the library, under the id by which it is named.

@@ -44,6 +44,10 @@ struct RouteCall {
     ValidationErrors& errors;                  ///< found so far; if any, the response
 };
 
+/// Returns a copy of a context whose atlas has guests.
+[[nodiscard]] std::shared_ptr<Context> with_guests(const Context& context,
+                                                   std::vector<AtlasGuest> guests);
+
 /// Adds an error for each query parameter of a request to a route that has none.
 void refuse_query(const Target& target, ValidationErrors& errors);
 

@@ -88,11 +88,17 @@ Response withdrawn(const ResponseBuilder& responses, const Request& request,
         {{"type", Value(responses.link("/problems/withdrawn"))}, {"title", Value("Withdrawn")}});
 }
 
+Response not_found(const ResponseBuilder& responses, const Request& request,
+                   const Library::Found& found) {
+    return found.status == 410 ? withdrawn(responses, request, found.message)
+                               : responses.problem(request, found.status, found.message);
+}
+
 Plan plan_library(RouteCall& call, Scope scope, LibraryHandler handler, const Cost& more) {
     const Context& context = call.context;
     if (!context.library) return context.responses.problem(call.request, 404, no_library);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    const std::string key = "library " + std::to_string(context.library->next_write());
+    const std::string key = context.library->next_key();
     // What is written is a few milliseconds of the disk, and of a processor for a species of 100 kB.
     const Cost cost = Cost{.base = 3000 + call.request.body.size() / 20} + more;
     auto run = [&context, library = context.library, request = call.request, target = call.target,

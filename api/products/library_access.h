@@ -25,6 +25,10 @@ inline constexpr const char* no_library =
 [[nodiscard]] Response withdrawn(const ResponseBuilder& responses, const Request& request,
                                  std::string_view detail);
 
+/// Returns the response about a species that is not published: 404, or 410 if it was purged.
+[[nodiscard]] Response not_found(const ResponseBuilder& responses, const Request& request,
+                                 const Library::Found& found);
+
 /// Who sends a request.
 struct Caller {
     std::string owner;  ///< empty for nobody

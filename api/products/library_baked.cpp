@@ -10,7 +10,6 @@
 #include "api/http/query.h"
 #include "api/library/species_text.h"
 #include "api/library/tokens.h"
-#include "api/products/library_drafts.h"
 #include "api/products/library_handlers.h"
 #include "core/params/messages.h"
 
@@ -23,7 +22,8 @@ constexpr std::uint64_t cost_of_baking = 150'000;
 
 /// Returns the response to a GET that this service itself sends, with species as guests of the atlas.
 Response grown(const LibraryCall& call, std::vector<AtlasGuest> guests, const std::string& target) {
-    const std::shared_ptr<Context> context = context_with_guests(call.context, std::move(guests));
+    const std::shared_ptr<Context> context = with_guests(call.context, std::move(guests));
+    context->caches = computed_inline(context->store);
     const Request request{"GET", target, {}, {}, call.request.id};
     std::vector<Problem> malformed;
     const Target parsed = split_target(target, malformed);
@@ -43,8 +43,7 @@ std::variant<LibraryName, Response> published(const LibraryCall& call) {
     const LibraryName name = read_species(call.captured[0], true, errors);
     if (!errors.empty()) return call.problem(errors);
     const Library::Found found = call.library.find(text_of(name));
-    if (found.status == 410) return withdrawn(call.responses(), call.request, found.message);
-    if (found.status != 200) return call.problem(found.status, found.message);
+    if (found.status != 200) return not_found(call.responses(), call.request, found);
     return found.name;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "api/http/documents.h"
 #include "api/library/species_text.h"
 #include "api/library/tokens.h"
 #include "api/products/library_access.h"
@@ -31,8 +32,7 @@ Cost estimated_cost(const Context& context, const std::vector<std::string>& ids,
     std::vector<AtlasGuest> guests;
     guests.reserve(ids.size());
     for (const std::string& id : ids) guests.push_back({id, entry_of(any.species, id)});
-    const std::shared_ptr<Context> own = context_with_guests(context, std::move(guests));
-    own->caches = context.caches;
+    const std::shared_ptr<Context> own = with_guests(context, std::move(guests));
     try {
         const Plan plan = again(*own);
         if (const Job* const job = std::get_if<Job>(&plan)) return job->cost;
@@ -70,9 +70,7 @@ class DraftReader {
         const std::optional<LibraryName> name = draft_name(id);
         if (!name) {
             Library::Found found = library.find(id);
-            if (found.status == 410) return withdrawn(context_.responses, request_, found.message);
-            if (found.status != 200)
-                return context_.responses.problem(request_, found.status, found.message);
+            if (found.status != 200) return not_found(context_.responses, request_, found);
             return found.entry ? std::move(found.entry) : library.load(found.name);
         }
         const bool may_see =
@@ -96,19 +94,10 @@ void make_private(Response& response) {
     response.cacheable = response.is_stored = false;
     static_cast<void>(take_header(response, "Content-Location"));
     static_cast<void>(take_header(response, "Cache-Status"));
-    set_header(response, "Cache-Control", "private, no-store");
+    set_header(response, "Cache-Control", private_to_client);
 }
 
 }  // namespace
-
-std::shared_ptr<Context> context_with_guests(const Context& context,
-                                             std::vector<AtlasGuest> guests) {
-    auto own = std::make_shared<Context>(context);
-    own->atlas = std::make_shared<const Atlas>(context.atlas, std::move(guests));
-    own->has_guests = true;
-    own->caches = computed_inline(context.store);
-    return own;
-}
 
 bool has_draft(const std::vector<std::string>& ids) {
     return std::any_of(ids.begin(), ids.end(),
@@ -117,7 +106,7 @@ bool has_draft(const std::vector<std::string>& ids) {
 
 Plan plan_with_drafts(const Context& context, const Request& request,
                       const std::vector<std::string>& ids, const PlanAgain& again) {
-    const std::string key = "library " + std::to_string(context.library->next_write());
+    const std::string key = context.library->next_key();
     const Cost cost = Cost{.base = 3000} + estimated_cost(context, ids, again);
     auto run = [&context, request, ids, again](std::stop_token stop, const Observer& observer,
                                                const Parallel& parallel) {
@@ -134,8 +123,9 @@ Plan plan_with_drafts(const Context& context, const Request& request,
                 guests.push_back(
                     {id, std::get<std::shared_ptr<const AtlasEntry>>(std::move(found))});
             }
-            const std::shared_ptr<Context> own = context_with_guests(context, guests);
+            const std::shared_ptr<Context> own = with_guests(context, guests);
             own->has_drafts = true;
+            own->caches = computed_inline(context.store);
             try {
                 Plan plan = again(*own);
                 Response response;

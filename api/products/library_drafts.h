@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,10 +11,6 @@ namespace sporeprint::api {
 
 /// Plans a request with a context of its own, whose atlas has guests.
 using PlanAgain = std::function<Plan(Context&)>;
-
-/// Returns a context whose atlas has guests, and whose caches compute what they do not have.
-[[nodiscard]] std::shared_ptr<Context> context_with_guests(const Context& context,
-                                                           std::vector<AtlasGuest> guests);
 
 /// Returns true if one of these names of species is that of a draft.
 [[nodiscard]] bool has_draft(const std::vector<std::string>& ids);

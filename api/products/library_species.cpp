@@ -342,15 +342,16 @@ Response publish_species(LibraryCall& call) {
     if (!errors.empty()) return call.problem(errors);
     const Expected expected = expected_draft(call, name);
     if (auto refusal = refused_condition(call, name, expected, nullptr)) return *std::move(refusal);
-    const std::optional<StoredDocument> document = call.records.document(name.owner, name.name);
     const std::optional<Version> draft = call.records.version(name.owner, name.name, 0);
-    if (!document || !draft) return without_draft(call, name);
+    if (!draft) return without_draft(call, name);
     if (expected.draft && draft->content.hash != *expected.draft) return stale(call, name, nullptr);
     // What is published can be grown at all ages; a draft need not be.
     errors.add(422, obstacles(call, draft->content, text_of({name.owner, name.name, 1})));
     if (!errors.empty()) return call.problem(errors);
     Publication publication{composed(order.note.view())};
     if (!order.bake.empty()) {
+        const std::optional<StoredDocument> document = call.records.document(name.owner, name.name);
+        if (!document) return without_draft(call, name);
         publication.number = document->newest + 1;
         auto baked = bake(call, draft->content, {name.owner, name.name, publication.number, false},
                           std::set<int>(order.bake.begin(), order.bake.end()));
