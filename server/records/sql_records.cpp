@@ -81,6 +81,15 @@ std::optional<std::int64_t> number(SqlConnection& sql, const char* statement,
 
 // --- Rows ---
 
+/// Returns what a function makes of each row.
+template <class Function>
+auto each_of(const SqlResult& result, Function function) {
+    std::vector<decltype(function(std::declval<const SqlRow&>()))> made;
+    made.reserve(result.rows.size());
+    for (const SqlRow& row : result.rows) made.push_back(function(row));
+    return made;
+}
+
 struct OwnerRow {
     std::int64_t id, documents, max_documents;
 };
@@ -601,11 +610,9 @@ class SqlRecords final : public Records {
                         "= v.sha256 WHERE o.name = $1 AND d.name = $2 AND v.number = $3 "
                         "AND v.place NOT LIKE '/%' ORDER BY v.place",
                         owner, name, number);
-            std::vector<Blob> files;
-            files.reserve(found.rows.size());
-            for (const SqlRow& row : found.rows)
-                files.push_back({text_in(row[0]), text_in(row[1]), digest_in(row[2]), {}});
-            return files;
+            return each_of(found, [](const SqlRow& row) {
+                return Blob{text_in(row[0]), text_in(row[1]), digest_in(row[2]), {}};
+            });
         });
     }
 
@@ -647,10 +654,7 @@ class SqlRecords final : public Records {
                         listing.reader, listing.owner, listing.kind, listing.parent, state,
                         pattern_of(listing.part), listing.after_owner, listing.after_name,
                         listing.limit, listing.has_purged ? 1 : 0);
-            std::vector<StoredDocument> documents;
-            documents.reserve(found.rows.size());
-            for (const SqlRow& row : found.rows) documents.push_back(document_in(row));
-            return documents;
+            return each_of(found, document_in);
         });
     }
 
@@ -790,12 +794,10 @@ class SqlRecords final : public Records {
                         "WHERE o.name = $1 AND d.name = $2 AND ($3 = '' OR s.id = $3) "
                         "ORDER BY s.created, s.id",
                         owner, name, id);
-            std::vector<Share> shares;
-            shares.reserve(found.rows.size());
-            for (const SqlRow& row : found.rows)
-                shares.push_back({text_in(row[0]), digest_in(row[1]), number_in(row[2]),
-                                  number_in(row[3]), time_in(row[4]).has_value()});
-            return shares;
+            return each_of(found, [](const SqlRow& row) {
+                return Share{text_in(row[0]), digest_in(row[1]), number_in(row[2]),
+                             number_in(row[3]), time_in(row[4]).has_value()};
+            });
         });
     }
 
@@ -806,14 +808,11 @@ class SqlRecords final : public Records {
                 "FROM owner ") +
             condition;
         return read([&](SqlConnection& sql) {
-            const SqlResult found = execute(sql, statement.c_str(), value);
-            std::vector<Owner> owners;
-            owners.reserve(found.rows.size());
-            for (const SqlRow& row : found.rows)
-                owners.push_back({text_in(row[0]), number_in(row[1]), time_in(row[2]).has_value(),
-                                  number_in(row[3]), number_in(row[4]), number_in(row[5]),
-                                  number_in(row[6])});
-            return owners;
+            return each_of(execute(sql, statement.c_str(), value), [](const SqlRow& row) {
+                return Owner{text_in(row[0]),   number_in(row[1]), time_in(row[2]).has_value(),
+                             number_in(row[3]), number_in(row[4]), number_in(row[5]),
+                             number_in(row[6])};
+            });
         });
     }
 
@@ -824,10 +823,7 @@ class SqlRecords final : public Records {
                 "t.last_used, t.revoked, o.disabled FROM token t JOIN owner o ON o.id = t.owner ") +
             condition;
         return read([&](SqlConnection& sql) {
-            const SqlResult found = execute(sql, statement.c_str(), value);
-            std::vector<Token> tokens;
-            tokens.reserve(found.rows.size());
-            for (const SqlRow& row : found.rows) {
+            return each_of(execute(sql, statement.c_str(), value), [](const SqlRow& row) {
                 Token token;
                 token.id = text_in(row[0]);
                 token.owner = text_in(row[1]);
@@ -839,9 +835,8 @@ class SqlRecords final : public Records {
                 token.last_used = time_in(row[7]);
                 token.revoked = time_in(row[8]);
                 token.is_owner_disabled = time_in(row[9]).has_value();
-                tokens.push_back(std::move(token));
-            }
-            return tokens;
+                return token;
+            });
         });
     }
 };
