@@ -10,8 +10,11 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "api/library/records.h"
+#include "api/library/tokens.h"
 #include "server/records/open.h"
 
 namespace sporeprint::server::test {
@@ -50,6 +53,16 @@ class TemporaryFolder {
   private:
     std::filesystem::path path_;
 };
+
+/// Bytes at a place of a version.
+inline api::Blob blob(const std::string& place, const std::string& bytes) {
+    return {place, "image/jpeg", api::sha256_of(bytes), {bytes.begin(), bytes.end()}};
+}
+
+/// A version that says a text.
+inline api::Content content(const std::string& text, std::vector<api::Blob> blobs = {}) {
+    return {text, api::sha256_of(text), 1, "capped", "Title of " + text, std::move(blobs)};
+}
 
 /// One empty database for one test.
 class Backend {

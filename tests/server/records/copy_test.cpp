@@ -33,14 +33,6 @@ class Copies : public testing::TestWithParam<NamedBackend> {
     std::unique_ptr<Records> other_;
 };
 
-Content content(const std::string& text, const std::string& pixels = "") {
-    Content written{text, sha256_of(text), 1, "capped", "Title of " + text, {}};
-    if (!pixels.empty())
-        written.blobs.push_back(
-            {"/a", "image/jpeg", sha256_of(pixels), {pixels.begin(), pixels.end()}});
-    return written;
-}
-
 Token token(const std::string& id, std::optional<Seconds> expires = std::nullopt) {
     Token token;
     token.id = id;
@@ -57,7 +49,8 @@ TEST_P(Copies, EverythingThatIsStillGoodIsThere) {
     library_->create("kaja", "bolete", content("draft"), "~sami.cap@2", "", 5);
     for (int i = 1; i <= most_versions; ++i) {
         const std::string text = "version \xC3\xA9 " + std::to_string(i);
-        library_->replace("kaja", "bolete", std::nullopt, content(text, "pixels of " + text), i);
+        library_->replace("kaja", "bolete", std::nullopt,
+                          content(text, {blob("/a", "pixels of " + text)}), i);
         Publication publication{"note"};
         if (i == 7) {
             publication.number = i;

@@ -56,9 +56,7 @@ class PostgresCluster {
         server_ = spawn({"postgres", "-D", data(), "-k", folder, "-c", "listen_addresses=", "-c",
                          "max_connections=300", "-c", "deadlock_timeout=100ms"});
         for (int i = 0; i < 600; ++i) {
-            const std::unique_ptr<PGconn, decltype(&PQfinish)> connection(
-                PQconnectdb(address("postgres").c_str()), PQfinish);
-            if (PQstatus(connection.get()) == CONNECTION_OK) return;
+            if (PQstatus(connected("postgres").get()) == CONNECTION_OK) return;
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         }
         throw std::runtime_error("PostgreSQL does not start");
@@ -86,8 +84,7 @@ class PostgresCluster {
 
     /// Executes a statement and returns the first value of its result.
     std::string execute(const std::string& database, const std::string& statement) {
-        const std::unique_ptr<PGconn, decltype(&PQfinish)> connection(
-            PQconnectdb(address(database).c_str()), PQfinish);
+        const Connection connection = connected(database);
         const std::unique_ptr<PGresult, decltype(&PQclear)> result(
             PQexec(connection.get(), statement.c_str()), PQclear);
         const ExecStatusType status = PQresultStatus(result.get());
@@ -104,9 +101,15 @@ class PostgresCluster {
     }
 
   private:
+    using Connection = std::unique_ptr<PGconn, decltype(&PQfinish)>;
+
     TemporaryFolder folder_;
     pid_t server_ = 0;
     int databases_ = 0;
+
+    [[nodiscard]] Connection connected(const std::string& database) const {
+        return {PQconnectdb(address(database).c_str()), PQfinish};
+    }
 
     [[nodiscard]] std::string data() const { return (folder_ / "data").string(); }
 

@@ -39,10 +39,6 @@ class Postgres : public testing::Test {
     std::string database_;
 };
 
-Content content(const std::string& text, std::vector<Blob> blobs = {}) {
-    return {text, sha256_of(text), 1, "capped", "Title", std::move(blobs)};
-}
-
 std::string reason_of(const std::string& address) {
     try {
         static_cast<void>(open_postgres_records(address));
@@ -149,13 +145,9 @@ TEST_F(Postgres, OwnersThatShareImagesDoNotBlockEachOther) {
     // Two owners who write the same blobs in opposite orders would each wait for the other, which the database ends
     // by refusing one of them.
     const std::unique_ptr<Records> records = open();
-    const auto blob = [](int i) {
-        const std::string bytes = "pixels " + std::to_string(i);
-        return Blob{
-            "/" + std::to_string(i), "image/jpeg", sha256_of(bytes), {bytes.begin(), bytes.end()}};
-    };
     std::vector<Blob> blobs;
-    for (int i = 0; i < 12; ++i) blobs.push_back(blob(i));
+    for (int i = 0; i < 12; ++i)
+        blobs.push_back(blob("/" + std::to_string(i), "pixels " + std::to_string(i)));
     std::vector<Blob> backwards = blobs;
     std::reverse(backwards.begin(), backwards.end());
     std::atomic<int> done{0};

@@ -22,14 +22,6 @@ namespace {
 using namespace api;
 using namespace test;
 
-Blob blob(const std::string& place, const std::string& bytes) {
-    return {place, "image/jpeg", sha256_of(bytes), {bytes.begin(), bytes.end()}};
-}
-
-Content content(const std::string& text, std::vector<Blob> blobs = {}) {
-    return {text, sha256_of(text), 1, "capped", "Title of " + text, std::move(blobs)};
-}
-
 class RecordsContract : public testing::TestWithParam<NamedBackend> {
   protected:
     std::unique_ptr<Backend> backend_;
