@@ -6,6 +6,15 @@ export const viewNames = ["three-quarter", "front", "side", "top", "below"] as c
 /** "roots" is from above, without the caps that hide the roots. */
 export type ViewName = (typeof viewNames)[number] | "roots";
 /** Everything that the camera can be moved to by name. */
+/** What buttons of the views say. */
+export const viewLabels: Readonly<Record<Exclude<ViewName, "roots">, string>> = {
+    front: "Front",
+    "three-quarter": "Three-quarter",
+    side: "Side",
+    top: "Top",
+    below: "Below",
+};
+
 export type LookName = ViewName | CloseUpName;
 export const lookNames: readonly LookName[] = [...viewNames, "roots", ...closeUpNames];
 

@@ -1,5 +1,5 @@
 // The page that breeds: passes events between the parents, the nine children, their family tree and the address.
-import { viewNames, type ViewName } from "../camera";
+import { viewLabels, viewNames } from "../camera";
 import { Controls, type ControlledValues } from "../controls";
 import { described, speciesSchema, type DocumentSchema } from "../designer/schemas";
 import { byId, make } from "../dom";
@@ -42,14 +42,6 @@ type Mate = "self" | "a" | "b";
 const partlyShownMs = 400;
 /** Time after which drafts become final models, milliseconds. */
 const refineDelayMs = 250;
-
-const viewLabels: Readonly<Record<Exclude<ViewName, "roots">, string>> = {
-    front: "Front",
-    "three-quarter": "Three-quarter",
-    side: "Side",
-    top: "Top",
-    below: "Below",
-};
 
 /** How long the last nine took, milliseconds. */
 export interface Timings {

@@ -3,7 +3,7 @@ import { byId } from "../dom";
 import { forgetDraft, loadDraft, saveDraft } from "../designer/draft";
 import { startOfDrawing } from "../designer/gesture";
 import { Library, nameLike, namePattern, tokenIn, type StoredSpecies } from "../designer/library";
-import { linkKey, storageKey } from "../designer/library_panel";
+import { storedToken, storeLink, storeToken } from "../designer/library_session";
 import { saveFile } from "../file_actions";
 import { asRequestFailed, send } from "../http";
 import { announce } from "../status_line";
@@ -15,10 +15,6 @@ export interface Saved {
     /** The whole document. */
     text: string;
     picture: string | undefined;
-}
-
-function tokenOfBrowser(): string {
-    return sessionStorage.getItem(storageKey) ?? localStorage.getItem(storageKey) ?? "";
 }
 
 export class SaveDialog {
@@ -63,7 +59,7 @@ export class SaveDialog {
         image.hidden = !picture;
         if (picture) image.src = picture;
         this.name.value = nameLike(`${facts?.common_name ?? "child"} ${genes.seed}`.replaceAll("×", "x"));
-        byId("save-token-row").hidden = tokenOfBrowser() !== "";
+        byId("save-token-row").hidden = storedToken() !== undefined;
         this.stored.hidden = true;
         this.say("");
         this.dialog.showModal();
@@ -107,7 +103,7 @@ export class SaveDialog {
         if ((await loadDraft()) && !confirm(question)) return;
         await forgetDraft();
         // The draft before may have been one of the library; this one is not.
-        localStorage.removeItem(linkKey);
+        storeLink(undefined);
         const file = new File([text], `${this.idOf(text)}.json`, { type: "application/json" });
         const drawing = { ...startOfDrawing, source: 1 };
         await saveDraft({ drawing, past: [], future: [], files: new Map([[1, file]]) });
@@ -117,11 +113,11 @@ export class SaveDialog {
     private async toLibrary(): Promise<void> {
         const { saved } = this;
         if (!saved) return;
-        const known = tokenOfBrowser();
-        const token = known || tokenIn(this.token.value);
+        const known = storedToken()?.token;
+        const token = known ?? tokenIn(this.token.value);
         if (!token) throw new Error("A token begins with spk_; the operator of the service gives it out");
         const { owner } = await new Library(token).quota();
-        if (!known) sessionStorage.setItem(storageKey, token);
+        if (!known) storeToken(token, false);
         const name = nameLike(this.name.value);
         this.name.value = name;
         const species = { ...(JSON.parse(saved.text) as object), id: name };

@@ -1,24 +1,15 @@
 // The family tree in the browser's own database: species and couples by their keys, so that two windows add to one
 // tree. Without a database, as in some private windows, the tree ends with the page.
+import { openDatabase } from "../browser_database";
 import type { Couple, Species } from "./pedigree";
 
 const stores = { species: "species", couples: "couples" } as const;
 type StoreName = keyof typeof stores;
 
-function database(): Promise<IDBDatabase> {
-    return new Promise((resolve, reject) => {
-        const opening = indexedDB.open("sporeprint-breeding", 1);
-        opening.onupgradeneeded = () => {
-            for (const name of Object.values(stores))
-                opening.result.createObjectStore(name, { keyPath: "key" });
-        };
-        opening.onsuccess = () => resolve(opening.result);
-        opening.onerror = () => reject(opening.error ?? new Error("no database"));
-    });
-}
-
 export class TreeStore {
-    private readonly open = database().catch(() => undefined);
+    private readonly open = openDatabase("sporeprint-breeding", (base) => {
+        for (const name of Object.values(stores)) base.createObjectStore(name, { keyPath: "key" });
+    }).catch(() => undefined);
 
     async load(): Promise<{ species: Species[]; couples: Couple[] }> {
         const base = await this.open;

@@ -1,6 +1,6 @@
 // The designer's page: passes events between the photograph, the service, the model and the list of
 // what was found. The history holds whole drawings; each of them has one trace.
-import { centimetres, standing, standingCloseUps, viewNames, type ViewName } from "../camera";
+import { centimetres, standing, standingCloseUps, viewLabels, viewNames, type ViewName } from "../camera";
 import { byId, make } from "../dom";
 import { saveFile } from "../file_actions";
 import { History } from "../history";
@@ -30,6 +30,7 @@ import {
 } from "./gesture";
 import { forgetDraft, loadDraft, saveDraft } from "./draft";
 import { LibraryPanel } from "./library_panel";
+import { storedLink } from "./library_session";
 import { LiveModel } from "./live_model";
 import { AxisEditor } from "./axis_editor";
 import {
@@ -109,14 +110,6 @@ const words: Readonly<Record<Tool, ToolWords>> = {
         sentence: "Draw a frame around the mushroom",
         title: "What is outside of the frame is background",
     },
-};
-
-const viewLabels: Readonly<Record<Exclude<ViewName, "roots">, string>> = {
-    front: "Front",
-    "three-quarter": "Three-quarter",
-    side: "Side",
-    top: "Top",
-    below: "Below",
 };
 
 /** Returns true for the JSON of a species; all else is a picture, or refused by the service. */
@@ -298,7 +291,7 @@ export class Designer {
         const draft = await loadDraft();
         if (!draft || this.photograph || this.opening) return;
         const whole = (each: Drawing): Drawing => ({ ...startOfDrawing, ...each });
-        const linked = LibraryPanel.stored();
+        const linked = storedLink();
         this.sources.restore(draft.files);
         this.history.begin(whole(draft.drawing), draft.past.map(whole), draft.future.map(whole));
         if (!(await this.goTo(draft.drawing.source))) return this.history.begin(startOfDrawing);

@@ -1,5 +1,6 @@
 // The draft that survives a reload: the files that were opened and what was drawn on them, in the
 // browser's own database. Without one, as in some private windows, there is no draft.
+import { openDatabase } from "../browser_database";
 import type { Drawing } from "./gesture";
 
 export interface Draft {
@@ -26,21 +27,12 @@ const keyOf = (number: number): string => `file ${number}`;
 /** Files that this visit has stored. */
 let written = new Map<number, Blob>();
 
-function database(): Promise<IDBDatabase> {
-    return new Promise((resolve, reject) => {
-        const opening = indexedDB.open("sporeprint-designer", 1);
-        opening.onupgradeneeded = () => opening.result.createObjectStore(store);
-        opening.onsuccess = () => resolve(opening.result);
-        opening.onerror = () => reject(opening.error ?? new Error("no database"));
-    });
-}
-
 async function act<T>(
     mode: IDBTransactionMode,
     request: (objects: IDBObjectStore) => IDBRequest<T>,
 ): Promise<T | undefined> {
     try {
-        const open = await database();
+        const open = await openDatabase("sporeprint-designer", (base) => base.createObjectStore(store));
         return await new Promise<T>((resolve, reject) => {
             const transaction = open.transaction(store, mode);
             const made = request(transaction.objectStore(store));

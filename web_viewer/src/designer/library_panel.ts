@@ -13,22 +13,24 @@ import {
     type StoredSpecies,
 } from "./library";
 import { copyText, libraryEntry, purgeQuestion, type EntryActions } from "./library_entry";
+import {
+    forgetToken,
+    storedToken,
+    storeLink,
+    storeToken,
+    takeTokenOfAddress,
+    type StoredLink,
+} from "./library_session";
 import type { Portraits } from "./portraits";
 import type { Species } from "./service";
 import type { OwnSpecies } from "./species_chooser";
 import { Thumbnails } from "./thumbnails";
 
-export const storageKey = "sporeprint-token";
-export const linkKey = "sporeprint-library-draft";
-
 /** Time after the last change until a species of the library is saved, milliseconds. */
 const saveDelayMs = 2000;
 
 /** The draft in the library that is worked on. */
-export interface Link {
-    id: string;
-    name: string;
-    etag: string;
+export interface Link extends StoredLink {
     /** As it was saved last. */
     text: string;
 }
@@ -180,18 +182,15 @@ export class LibraryPanel implements OwnSpecies {
 
     /** Shows the panel if the service has a library, and signs in with a token of the address or of the last visit. */
     async begin(): Promise<void> {
-        const given = tokenIn(location.hash);
-        // The address is in the history of the browser; the token should not be.
-        if (given) history.replaceState(null, "", location.pathname + location.search);
+        const given = takeTokenOfAddress();
         try {
             if (!(await hasLibrary())) return;
         } catch {
             return; // A service that cannot be reached is reported where it is needed.
         }
         byId("tab-library").hidden = false;
-        const stored = localStorage.getItem(storageKey);
-        const known = given ?? sessionStorage.getItem(storageKey) ?? stored;
-        if (known) await this.enter(known, !given && known === stored);
+        const known = given ? { token: given, stays: false } : storedToken();
+        if (known) await this.enter(known.token, known.stays);
     }
 
     /** Shows what is worked on; a species of the library is saved a while after its last change. */
@@ -207,12 +206,6 @@ export class LibraryPanel implements OwnSpecies {
         this.saving = setTimeout(() => void this.write(() => this.saved()), saveDelayMs);
     }
 
-    /** The draft in the library that the draft of this browser belongs to; undefined for none. */
-    static stored(): { id: string; name: string; etag: string } | undefined {
-        const stored = localStorage.getItem(linkKey);
-        return stored ? (JSON.parse(stored) as { id: string; name: string; etag: string }) : undefined;
-    }
-
     private showTitle(): void {
         this.title.value = this.species?.facts?.common_name ?? "";
     }
@@ -223,7 +216,7 @@ export class LibraryPanel implements OwnSpecies {
     }
 
     /** Goes on with a draft in the library, after what it belongs to was opened again. */
-    resume(link: { id: string; name: string; etag: string; text?: string }): void {
+    resume(link: StoredLink & { text?: string }): void {
         this.follow({ text: "", ...link });
         this.name.value = link.name;
         this.say(`${link.id} · draft`);
@@ -232,10 +225,7 @@ export class LibraryPanel implements OwnSpecies {
 
     private follow(link: Link | undefined): void {
         this.link = link;
-        if (link) {
-            const { id, name, etag } = link;
-            localStorage.setItem(linkKey, JSON.stringify({ id, name, etag }));
-        } else localStorage.removeItem(linkKey);
+        storeLink(link);
     }
 
     /** Tells that something else is worked on, which is not in the library yet. */
@@ -262,7 +252,7 @@ export class LibraryPanel implements OwnSpecies {
         try {
             this.quota = await library.quota();
             this.library = library;
-            (stay ? localStorage : sessionStorage).setItem(storageKey, token);
+            storeToken(token, stay);
             this.token.value = "";
             this.entrance.hidden = true;
             this.desk.hidden = false;
@@ -276,8 +266,7 @@ export class LibraryPanel implements OwnSpecies {
     }
 
     private leave(): void {
-        sessionStorage.removeItem(storageKey);
-        localStorage.removeItem(storageKey);
+        forgetToken();
         clearTimeout(this.saving);
         this.library = this.quota = this.link = undefined;
         this.entrance.hidden = false;
