@@ -4,77 +4,14 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/trace/colour_sample.h"
 #include "core/trace/contour.h"
-#include "core/trace/hue.h"
 #include "core/trace/lab.h"
+#include "core/trace/skin_patch.h"
 
 namespace sporeprint::trace {
 
 namespace {
-
-/// Fewer pixels do not tell a colour.
-constexpr std::size_t least_pixels = 24;
-
-/// Pixels so near to the border of the mask have some of the background.
-constexpr int border = 2;
-
-/// A quarter of a cap has the commonest hue of the cap or one so near to it, in steps, if enough of it has.
-constexpr int near_hue = 3;
-constexpr double least_of_hue = 0.2;
-
-/// The pixels of one place.
-class Sample {
-  public:
-    void add(const std::uint8_t* rgb) { pixels_.push_back({rgb[0], rgb[1], rgb[2]}); }
-    void add(const Sample& other) {
-        pixels_.insert(pixels_.end(), other.pixels_.begin(), other.pixels_.end());
-    }
-
-    /// Returns the hue that most pixels have or nearly have.
-    [[nodiscard]] Hue commonest_hue() const { return trace::commonest_hue(pixels_); }
-
-    /// Returns the colour that most pixels have, as L*a*b*; none of too few pixels.
-    ///
-    /// near  if enough pixels have about this hue, the others do not count
-    [[nodiscard]] std::optional<glm::dvec3> colour(const Hue& near) const {
-        if (pixels_.size() < least_pixels) return std::nullopt;
-        std::vector<Pixel> alike = within(pixels_, near, near_hue);
-        if (static_cast<double>(alike.size()) < least_of_hue * static_cast<double>(pixels_.size()))
-            alike = pixels_;
-        alike = within(alike, trace::commonest_hue(alike), 1);
-        const std::size_t darker = alike.size() * 2 / 5;
-        const auto from = alike.begin() + static_cast<std::ptrdiff_t>(darker);
-        std::nth_element(alike.begin(), from, alike.end(), is_darker);
-        const auto middle = from + (alike.end() - from) / 2;
-        glm::dvec3 median(0.0);
-        for (int c = 0; c < 3; ++c) {
-            const auto channel = static_cast<std::size_t>(c);
-            std::nth_element(from, middle, alike.end(), [channel](const Pixel& a, const Pixel& b) {
-                return a[channel] < b[channel];
-            });
-            median[c] = (*middle)[channel];
-        }
-        return lab_of(median);
-    }
-
-  private:
-    std::vector<Pixel> pixels_;
-
-    static std::vector<Pixel> within(const std::vector<Pixel>& pixels, const Hue& hue, int steps) {
-        std::vector<Pixel> found;
-        found.reserve(pixels.size());
-        for (const Pixel& pixel : pixels)
-            if (are_near(hue_of(pixel), hue, steps)) found.push_back(pixel);
-        return found;
-    }
-
-    /// Shares of the channels of ITU-R BT.709 in ten thousandths; pixels of one luma are in order of
-    /// their channels, so that the same set is chosen everywhere.
-    static std::array<int, 4> luma(const Pixel& pixel) {
-        return {2126 * pixel[0] + 7152 * pixel[1] + 722 * pixel[2], pixel[0], pixel[1], pixel[2]};
-    }
-    static bool is_darker(const Pixel& a, const Pixel& b) { return luma(a) < luma(b); }
-};
 
 /// Returns the place on a line that is nearest to a point.
 std::size_t nearest_on(const std::vector<glm::dvec2>& line, const glm::dvec2& point) {
@@ -127,11 +64,6 @@ class CapPlaces {
     }
 };
 
-bool is_well_inside(const Mask& mask, int x, int y) {
-    return mask.at(x - border, y) && mask.at(x + border, y) && mask.at(x, y - border) &&
-           mask.at(x, y + border);
-}
-
 glm::dvec3 lab_of(Colour colour) { return trace::lab_of(glm::dvec3(colour.r, colour.g, colour.b)); }
 
 Colour colour_of(const glm::dvec3& lab) {
@@ -169,13 +101,13 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
     const CapPlaces cap(traced);
     const glm::dvec2 foot = traced.axis.front();
     const glm::dvec2 up = 0.5 * (traced.junctions[0] + traced.junctions[1]) - foot;
-    std::array<Sample, PartColours::places> quarters;
-    std::array<Sample, 2> stem;
-    Sample face;
+    std::array<ColourSample, PartColours::places> quarters;
+    std::array<ColourSample, 2> stem;
+    ColourSample face;
     for (int y = 0; y < mask.height; ++y)
         for (int x = 0; x < mask.width; ++x) {
-            if (!mask.at(x, y) || !is_well_inside(mask, x, y)) continue;
             const glm::dvec2 pixel(x + 0.5, y + 0.5);
+            if (!is_well_inside(mask, pixel)) continue;
             const std::uint8_t* rgb = &picture.rgb[3 * mask.index(x, y)];
             if (const std::optional<double> share = cap.share(pixel)) {
                 const auto quarter = static_cast<std::size_t>(*share * PartColours::places);
@@ -191,8 +123,8 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
             else if (share > 0.03 && share < 1.0 / 3.0)
                 stem[1].add(rgb);
         }
-    Sample whole;
-    for (const Sample& quarter : quarters) whole.add(quarter);
+    ColourSample whole;
+    for (const ColourSample& quarter : quarters) whole.add(quarter);
     const Hue of_cap = whole.commonest_hue();
     PartColours found;
     found.cap.emplace();
@@ -201,7 +133,9 @@ PartColours part_colours(const Picture& picture, const Mask& mask, const Traced&
             (*found.cap)[k] = *colour;
         else
             found.cap.reset();
-    const auto of_stem = [](const Sample& third) { return third.colour(third.commonest_hue()); };
+    const auto of_stem = [](const ColourSample& third) {
+        return third.colour(third.commonest_hue());
+    };
     const std::optional<glm::dvec3> top = of_stem(stem[0]), base = of_stem(stem[1]);
     if (top && base) found.stem = {*top, *base};
     found.face = face.colour(face.commonest_hue());

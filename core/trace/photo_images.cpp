@@ -9,6 +9,7 @@
 #include "core/silhouette/outline.h"
 #include "core/trace/axis.h"
 #include "core/trace/hue.h"
+#include "core/trace/skin_patch.h"
 
 namespace sporeprint::trace {
 
@@ -19,73 +20,13 @@ constexpr double quarter = pi / 4.0;
 /// Beyond this angle from the front a skin is too foreshortened.
 constexpr double widest = 62.0 * pi / 180.0;
 
-constexpr int image_side = 512;
-
-/// A part of which less is seen has no image.
-constexpr double least_seen = 0.4;
-
 /// How far a place may stand out, in root mean squares of its row.
 constexpr double most_contrast = 2.0;
 
 /// A hue is quite another one by more steps: a brown cap may have a cream margin.
 constexpr int other_hue = 4;
 
-/// Returns the value at a place between the texels of a grid: `texel` of whole columns and rows.
-template <class Texel>
-glm::dvec3 between_texels(double x, double y, Texel texel) {
-    const auto left = static_cast<std::size_t>(x), top = static_cast<std::size_t>(y);
-    const double right = x - static_cast<double>(left), down = y - static_cast<double>(top);
-    return (1.0 - down) * ((1.0 - right) * texel(left, top) + right * texel(left + 1, top)) +
-           down * ((1.0 - right) * texel(left, top + 1) + right * texel(left + 1, top + 1));
-}
-
-double luminance(const glm::dvec3& light) {
-    return 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
-}
-
 // --- From the photograph ----------------------------------------------------------------
-
-/// Reads linear light between the pixels of a photograph.
-class Light {
-  public:
-    explicit Light(const Picture& picture) : picture_(picture) {
-        for (std::size_t i = 0; i < linear_.size(); ++i)
-            linear_[i] = srgb_to_linear(static_cast<double>(i) / 255.0);
-    }
-
-    /// Returns the pixel that contains a place, which is on the photograph.
-    [[nodiscard]] Pixel pixel(const glm::dvec2& place) const {
-        const auto i =
-            first_of(static_cast<std::size_t>(place.x), static_cast<std::size_t>(place.y));
-        return {picture_.rgb[i], picture_.rgb[i + 1], picture_.rgb[i + 2]};
-    }
-
-    [[nodiscard]] glm::dvec3 at(const glm::dvec2& place) const {
-        const double x = std::clamp(place.x - 0.5, 0.0, picture_.width - 1.001),
-                     y = std::clamp(place.y - 0.5, 0.0, picture_.height - 1.001);
-        return between_texels(x, y, [this](std::size_t column, std::size_t row) {
-            const std::size_t i = first_of(column, row);
-            return glm::dvec3(linear_[picture_.rgb[i]], linear_[picture_.rgb[i + 1]],
-                              linear_[picture_.rgb[i + 2]]);
-        });
-    }
-
-  private:
-    const Picture& picture_;
-    std::array<double, 256> linear_{};
-
-    [[nodiscard]] std::size_t first_of(std::size_t x, std::size_t y) const {
-        return 3 * (y * static_cast<std::size_t>(picture_.width) + x);
-    }
-};
-
-/// Returns true well inside a mask: pixels at its border have some of the background.
-bool is_inside(const Mask& mask, const glm::dvec2& place) {
-    constexpr int border = 2;
-    const int x = static_cast<int>(std::floor(place.x)), y = static_cast<int>(std::floor(place.y));
-    return mask.at(x, y) && mask.at(x - border, y) && mask.at(x + border, y) &&
-           mask.at(x, y - border) && mask.at(x, y + border);
-}
 
 /// Hides what follows a long gap on the way from the first row to the last, and a little before it: behind a
 /// margin that stands up the other side is seen, and its shade.
@@ -114,7 +55,7 @@ void hide_beyond_gaps(SkinPatch& patch) {
 template <class Place>
 SkinPatch patch_of(const Picture& picture, const Mask& mask, std::size_t rows, double surely,
                    Place place) {
-    const Light light(picture);
+    const PhotoLight light(picture);
     SkinPatch patch;
     patch.rows = rows;
     patch.columns = rows / 2;
@@ -130,7 +71,7 @@ SkinPatch patch_of(const Picture& picture, const Mask& mask, std::size_t rows, d
         for (std::size_t column = 0; column < patch.columns; ++column) {
             const glm::dvec2 at = place(share, sine(patch.angle(column)));
             patch.light.push_back(light.at(at));
-            patch.is_seen.push_back(is_inside(mask, at));
+            patch.is_seen.push_back(is_well_inside(mask, at));
             pixels.push_back(patch.is_seen.back() ? light.pixel(at) : Pixel{});
             if (patch.is_seen.back() && share < surely) seen.push_back(pixels.back());
         }
@@ -164,11 +105,6 @@ double height_of(const Traced& traced) {
             bottom = std::max(bottom, point.y);
         }
     return bottom - top;
-}
-
-bool shows_enough(const SkinPatch& patch) {
-    const auto seen = std::count(patch.is_seen.begin(), patch.is_seen.end(), true);
-    return static_cast<double>(seen) >= least_seen * static_cast<double>(patch.is_seen.size());
 }
 
 // --- Round the mushroom -----------------------------------------------------------------
@@ -278,142 +214,7 @@ class Round {
     }
 };
 
-std::uint8_t encoded(double light) {
-    return static_cast<std::uint8_t>(255.0 * linear_to_srgb(std::clamp(light, 0.0, 1.0)) + 0.5);
-}
-
-template <class At>
-Picture picture_of(int width, int height, At at) {
-    Picture picture{width, height, {}};
-    picture.rgb.reserve(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::dvec3 light = at((x + 0.5) / width, (y + 0.5) / height);
-            for (int c = 0; c < 3; ++c) picture.rgb.push_back(encoded(light[c]));
-        }
-    return picture;
-}
-
-// --- Fill and shade ---------------------------------------------------------------------
-
-/// A copy of a patch whose texels are means of those that are seen.
-struct Level {
-    std::size_t rows, columns;
-    std::vector<glm::dvec3> light;
-    std::vector<double> weight;
-
-    /// Returns the light at the middle of a texel of the finer copy.
-    [[nodiscard]] glm::dvec3 between(std::size_t row, std::size_t column) const {
-        const auto nearest = [](std::size_t fine, std::size_t count) {
-            const std::size_t own = fine / 2;
-            const std::size_t other = fine % 2 == 0 ? (own > 0 ? own - 1 : own) : own + 1;
-            return std::array<std::size_t, 2>{own, std::min(other, count - 1)};
-        };
-        const auto [own_row, other_row] = nearest(row, rows);
-        const auto [own_column, other_column] = nearest(column, columns);
-        const auto texel = [this](std::size_t i, std::size_t j) { return light[i * columns + j]; };
-        return 0.75 * (0.75 * texel(own_row, own_column) + 0.25 * texel(own_row, other_column)) +
-               0.25 * (0.75 * texel(other_row, own_column) + 0.25 * texel(other_row, other_column));
-    }
-};
-
-Level halved(const Level& of) {
-    Level half{(of.rows + 1) / 2, (of.columns + 1) / 2, {}, {}};
-    half.light.assign(half.rows * half.columns, glm::dvec3(0.0));
-    half.weight.assign(half.rows * half.columns, 0.0);
-    for (std::size_t row = 0; row < of.rows; ++row)
-        for (std::size_t column = 0; column < of.columns; ++column) {
-            const std::size_t from = row * of.columns + column,
-                              to = (row / 2) * half.columns + column / 2;
-            half.light[to] += of.weight[from] * of.light[from];
-            half.weight[to] += of.weight[from];
-        }
-    for (std::size_t i = 0; i < half.light.size(); ++i) {
-        if (half.weight[i] > 0.0) half.light[i] /= half.weight[i];
-        half.weight[i] = std::min(half.weight[i], 1.0);
-    }
-    return half;
-}
-
-/// Solves a linear system of three equations by Cramer's rule; zero if it has no single solution.
-glm::dvec3 solved(const std::array<glm::dvec3, 3>& columns, const glm::dvec3& right) {
-    const auto determinant = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-        return glm::dot(a, glm::cross(b, c));
-    };
-    const double whole = determinant(columns[0], columns[1], columns[2]);
-    if (std::abs(whole) < 1e-12) return glm::dvec3(0.0);
-    return {determinant(right, columns[1], columns[2]) / whole,
-            determinant(columns[0], right, columns[2]) / whole,
-            determinant(columns[0], columns[1], right) / whole};
-}
-
 }  // namespace
-
-void fill(SkinPatch& patch) {
-    std::vector<Level> levels = {{patch.rows, patch.columns, patch.light, {}}};
-    levels[0].weight.reserve(patch.is_seen.size());
-    for (const bool is_seen : patch.is_seen) levels[0].weight.push_back(is_seen ? 1.0 : 0.0);
-    while (levels.back().rows > 1 || levels.back().columns > 1)
-        levels.push_back(halved(levels.back()));
-    for (std::size_t k = levels.size() - 1; k > 0; --k) {
-        const Level& coarse = levels[k];
-        Level& fine = levels[k - 1];
-        for (std::size_t row = 0; row < fine.rows; ++row)
-            for (std::size_t column = 0; column < fine.columns; ++column) {
-                const std::size_t i = row * fine.columns + column;
-                const glm::dvec3 around = coarse.between(row, column);
-                fine.light[i] = fine.weight[i] * fine.light[i] + (1.0 - fine.weight[i]) * around;
-                fine.weight[i] = 1.0;
-            }
-    }
-    patch.light = std::move(levels[0].light);
-    patch.is_seen.assign(patch.light.size(), true);
-}
-
-void unshade(SkinPatch& patch, bool has_depth) {
-    // Light over the mean of its row, so that colours along the part do not count.
-    std::vector<double> means(patch.rows, 0.0);
-    for (std::size_t row = 0; row < patch.rows; ++row)
-        for (std::size_t column = 0; column < patch.columns; ++column)
-            means[row] += luminance(patch.light[row * patch.columns + column]) /
-                          static_cast<double>(patch.columns);
-    std::vector<std::array<double, 2>> normals;
-    normals.reserve(patch.columns);
-    for (std::size_t column = 0; column < patch.columns; ++column) {
-        const SineCosine angle = sine_cosine(patch.angle(column));
-        normals.push_back({angle.sine, has_depth ? angle.cosine : 0.0});
-    }
-    constexpr int rounds = 4;
-    constexpr double outlier = 0.15;  // a difference that counts half
-    glm::dvec3 shade(1.0, 0.0, 0.0);
-    for (int round = 0; round < rounds; ++round) {
-        std::array<glm::dvec3, 3> system = {};
-        glm::dvec3 right(0.0);
-        for (std::size_t row = 0; row < patch.rows; ++row)
-            for (std::size_t column = 0; column < patch.columns; ++column) {
-                if (means[row] <= 0.0) continue;
-                const glm::dvec3 terms(1.0, normals[column][0], normals[column][1]);
-                const double light =
-                    luminance(patch.light[row * patch.columns + column]) / means[row];
-                const double apart = (light - glm::dot(shade, terms)) / outlier;
-                const double weight = round == 0 ? 1.0 : 1.0 / (1.0 + apart * apart);
-                for (int k = 0; k < 3; ++k)
-                    system[static_cast<std::size_t>(k)] += weight * terms[k] * terms;
-                right += weight * light * terms;
-            }
-        if (!has_depth) system[2] = {0.0, 0.0, 1.0};
-        const glm::dvec3 found = solved(system, right);
-        if (found == glm::dvec3(0.0)) return;
-        shade = found;
-    }
-    constexpr double least_shade = 0.25;
-    for (std::size_t row = 0; row < patch.rows; ++row)
-        for (std::size_t column = 0; column < patch.columns; ++column) {
-            const double here =
-                shade.x + shade.y * normals[column][0] + shade.z * normals[column][1];
-            patch.light[row * patch.columns + column] /= std::max(here, least_shade);
-        }
-}
 
 PhotoImages photo_images(const Picture& picture, const Mask& mask, const Traced& traced,
                          double height_m) {
@@ -428,7 +229,7 @@ PhotoImages photo_images(const Picture& picture, const Mask& mask, const Traced&
         return axis.beside(to_right * sample.r * scale, std::max(sample.y, 0.0) * scale);
     });
     if (traced.ring) hide_ring(stem, *traced.ring, outline.stem, height_m);
-    if (shows_enough(stem)) {
+    if (shows_enough(stem, stem.light.size())) {
         fill(stem);
         unshade(stem, true);
         const Round round(stem);
@@ -448,7 +249,7 @@ PhotoImages photo_images(const Picture& picture, const Mask& mask, const Traced&
         const OutlineSample sample = outline.cap.at(1.0 - share);
         return middle + of_cap * (to_right * sample.r * right + (sample.y - margin.y) * up);
     });
-    if (shows_enough(cap)) {
+    if (shows_enough(cap, cap.light.size())) {
         fill(cap);
         unshade(cap, false);
         const Round round(cap);

@@ -2,9 +2,7 @@
 // mushroom.
 #pragma once
 
-#include <glm/vec3.hpp>
 #include <optional>
-#include <vector>
 
 #include "core/surface/codecs.h"
 #include "core/trace/photo.h"
@@ -27,27 +25,5 @@ struct PhotoImages {
 /// cost           about 60 ms
 [[nodiscard]] PhotoImages photo_images(const Picture& picture, const Mask& mask,
                                        const Traced& traced, double height_m);
-
-/// A part of a skin as it is seen from the front: rows along the part, columns by the angle from the front.
-struct SkinPatch {
-    std::size_t rows = 0, columns = 0;
-    double reach = 0.0;  ///< the first and the last column are at -reach and reach, radians
-    std::vector<glm::dvec3> light;  ///< linear light
-    std::vector<bool> is_seen;
-
-    [[nodiscard]] double angle(std::size_t column) const {
-        return reach *
-               (2.0 * (static_cast<double>(column) + 0.5) / static_cast<double>(columns) - 1.0);
-    }
-};
-
-/// Fills what is not seen from what is round it, by pyramids of ever smaller copies (push-pull).
-void fill(SkinPatch& patch);
-
-/// Divides a patch by its shade: light b0 + b * normal, fitted to the luminance of each row over its own mean by
-/// least squares with weights that fall with the distance.
-///
-/// has_depth  also by the part of the normal towards the camera; without it only from left to right
-void unshade(SkinPatch& patch, bool has_depth);
 
 }  // namespace sporeprint::trace
