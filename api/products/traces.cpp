@@ -108,27 +108,76 @@ Picture decoded(const StoredPhoto& photo) {
     return decoded_layers({photo.jpeg.data(), photo.jpeg.size}, trace::decoded_side, "").picture;
 }
 
-/// Returns the mushroom on a photograph as it was cut out.
-MushroomOnPhoto mushroom_of(const StoredCut& cut, const StoredPhoto& photo) {
-    return {cut.picture, cut.mask, static_cast<double>(cut.picture.width) / photo.width};
+/// Returns what a gesture cuts out of a photograph, which the last trace of it has perhaps cut out already; the cut
+/// of `made` otherwise, which is stored.
+template <class Make>
+std::shared_ptr<const StoredCut> cut_of(Photos& photos, std::string_view name,
+                                        const std::string& gesture, Make made) {
+    const auto now = std::chrono::steady_clock::now();
+    if (auto known = photos.cut(name, gesture, now)) return known;
+    auto cut = std::make_shared<const StoredCut>(made());
+    photos.store_cut(name, cut, now);
+    return cut;
 }
 
-/// Returns the mushroom on a photograph, which the last trace of it has perhaps cut out already.
-MushroomOnPhoto mushroom_on_stored(Photos& photos, const StoredPhoto& photo,
-                                   const trace::TraceSpec& spec, const std::string& gesture) {
-    const std::string_view name = spec.views.side.photo;
-    const auto now = std::chrono::steady_clock::now();
+/// A view of a trace with its photograph.
+struct PhotographedView {
+    std::string_view name;
+    std::string path;     ///< in the TraceSpec
+    std::string gesture;  ///< canonical text; empty for none
+    std::shared_ptr<const StoredPhoto> photo;
+
+    [[nodiscard]] bool is_cut(Photos& photos) const {
+        return photo->cut_out || photos.cut(name, gesture, std::chrono::steady_clock::now());
+    }
+};
+
+MushroomOnPhoto mushroom_on_stored(Photos& photos, const PhotographedView& view,
+                                   const trace::TraceSpec& spec) {
+    const StoredPhoto& photo = *view.photo;
     if (spec.outline) {
-        const auto last = photos.last_cut(name, now);
+        const auto last = photos.last_cut(view.name, std::chrono::steady_clock::now());
         return last ? outlined_on(last->picture, {photo.width, photo.height}, spec)
                     : mushroom_on(decoded(photo), photo.cut_out, spec);
     }
-    if (const auto known = photos.cut(name, gesture, now)) return mushroom_of(*known, photo);
-    MushroomOnPhoto on = mushroom_on(decoded(photo), photo.cut_out, spec);
-    photos.store_cut(
-        name, std::make_shared<const StoredCut>(StoredCut{gesture, on.picture, on.mask}), now);
-    return on;
+    const auto cut = cut_of(photos, view.name, view.gesture, [&] {
+        MushroomOnPhoto on = mushroom_on(decoded(photo), photo.cut_out, spec);
+        return StoredCut{view.gesture, std::move(on.picture), std::move(on.mask)};
+    });
+    return {cut->picture, cut->mask, static_cast<double>(cut->picture.width) / photo.width};
 }
+
+trace::FaceView face_on_stored(Photos& photos, const PhotographedView& view,
+                               const trace::FaceViewSpec& spec) {
+    const StoredPhoto& photo = *view.photo;
+    const auto cut = cut_of(photos, view.name, view.gesture, [&] {
+        trace::FaceView face = face_on(decoded(photo), photo.cut_out, spec, view.path);
+        return StoredCut{view.gesture, std::move(face.picture), std::move(face.mask)};
+    });
+    return face_on_copy(cut->picture, cut->mask, {photo.width, photo.height}, spec, view.path);
+}
+
+/// Finds the photograph of a view and what is missing of it.
+template <class View>
+PhotographedView photographed(Photos& photos, const View& view, const char* path, bool needs_none,
+                              ValidationErrors& errors) {
+    PhotographedView found{view.photo.view(), path,
+                           view.gesture ? dump(write(*view.gesture)) : std::string(),
+                           photos.find(view.photo.view(), std::chrono::steady_clock::now())};
+    if (!found.photo)
+        errors.add(404, found.path + "/photo", photo_is_gone);
+    else if (!found.photo->cut_out && !view.gesture && !needs_none)
+        errors.add(422, found.path + "/gesture",
+                   "is missing; only a picture that is cut out already, or an outline with marks, "
+                   "needs none");
+    return found;
+}
+
+/// The views of a trace.
+struct PhotographedViews {
+    PhotographedView side;
+    std::optional<PhotographedView> above, below;
+};
 
 Plan plan_trace(RouteCall& call) {
     refuse_query(call.target, call.errors);
@@ -136,7 +185,8 @@ Plan plan_trace(RouteCall& call) {
     ValidationErrors& errors = call.errors;
     auto read = read_spec<trace::TraceSpec>(call.request.body, errors);
     for (Problem& problem : read.second)
-        if (problem.path == "/views/side/gesture" && problem.message.starts_with("null"))
+        if (problem.path.starts_with("/views/") && problem.path.ends_with("/gesture") &&
+            problem.message.starts_with("null"))
             problem.message =
                 "expected an object with the line axis, got null; leave it out for a picture that "
                 "is cut out already";
@@ -145,35 +195,42 @@ Plan plan_trace(RouteCall& call) {
     if (errors.empty() && spec->template_id.view() != "auto" &&
         !find_species(spec->template_id.view(), *context.atlas))
         errors.add(404, "/template", unknown_species(spec->template_id.view(), *context.atlas));
-    const trace::ViewSpec& side = spec->views.side;
-    const auto now = std::chrono::steady_clock::now();
-    const std::shared_ptr<const StoredPhoto> photo =
-        errors.empty() ? context.store.photos.find(side.photo, now) : nullptr;
-    if (errors.empty() && !photo) errors.add(404, "/views/side/photo", photo_is_gone);
-    if (errors.empty() && !photo->cut_out && !side.gesture && !spec->outline)
-        errors.add(422, "/views/side/gesture",
-                   "is missing; only a picture that is cut out already, or an outline with marks, "
-                   "needs none");
     if (!errors.empty()) return context.responses.problem(call.request, errors);
 
-    const std::string gesture = side.gesture ? dump(write(*side.gesture)) : std::string();
-    const bool is_cut =
-        photo->cut_out || spec->outline || context.store.photos.cut(side.photo, gesture, now);
-    const Cost cost{.base = (is_cut ? 80'000U : 400'000U) + (spec->images ? 80'000U : 0U)};
-    auto run = [spec, photo, gesture, &context](const std::stop_token& stop,
-                                                const Observer& observer,
-                                                const Parallel& parallel) {
+    Photos& photos = context.store.photos;
+    const trace::ViewsSpec& written = spec->views;
+    auto views = std::make_shared<PhotographedViews>();
+    views->side =
+        photographed(photos, written.side, "/views/side", spec->outline.has_value(), errors);
+    if (written.above)
+        views->above = photographed(photos, *written.above, "/views/above", false, errors);
+    if (written.below)
+        views->below = photographed(photos, *written.below, "/views/below", false, errors);
+    if (!errors.empty()) return context.responses.problem(call.request, errors);
+
+    Cost cost{.base = spec->images ? 80'000U : 0U};
+    cost.base += spec->outline || views->side.is_cut(photos) ? 80'000U : 400'000U;
+    for (const auto* face : {&views->above, &views->below})
+        if (*face) cost.base += (*face)->is_cut(photos) ? 80'000U : 400'000U;
+    auto run = [spec, views, &context](const std::stop_token& stop, const Observer& observer,
+                                       const Parallel& parallel) {
         const auto go_on = [&stop] {
             if (stop.stop_requested()) throw Cancelled();
         };
+        Photos& stored = context.store.photos;
         observer(Step::resolve);
-        const MushroomOnPhoto on = mushroom_on_stored(context.store.photos, *photo, *spec, gesture);
+        const MushroomOnPhoto on = mushroom_on_stored(stored, views->side, *spec);
+        go_on();
+        FacesOnPhotos faces;
+        if (views->above) faces.above = face_on_stored(stored, *views->above, *spec->views.above);
+        go_on();
+        if (views->below) faces.below = face_on_stored(stored, *views->below, *spec->views.below);
         go_on();
         const NearestSpecies& nearest = context.nearest.get(*context.atlas, parallel);
         go_on();
         observer(Step::build);
-        return private_json(
-            trace_body(species_from_photo(on, *spec, *context.atlas, nearest), *context.atlas));
+        return private_json(trace_body(
+            species_from_photo(on, faces, *spec, *context.atlas, nearest), *context.atlas));
     };
     return Job{"trace " + std::to_string(context.store.uploads++), cost, std::move(run)};
 }
@@ -306,9 +363,10 @@ void add_schemas(Value& schemas, const Atlas&) {
               described(
                   number,
                   "How far other ages have the proportions of the photographed one, 0 to 1.")},
-             {"warnings", described(list_of(warning),
-                                    "asymmetry, method, likeness, reversed or images, each with a "
-                                    "sentence.")},
+             {"warnings",
+              described(list_of(warning),
+                        "asymmetry, method, likeness, reversed, soil or images, each with "
+                        "a sentence.")},
              {"stage", described(whole,
                                  "The stage of the species that was photographed, from "
                                  "0.")},
@@ -328,7 +386,10 @@ void add_bodies(Value& bodies, const Atlas&) {
         object.set("required", Value(Value::Array{member}));
         return *object.find("properties")->find(member);
     };
-    static_cast<void>(require(require(require(order, "views"), "side"), "photo"));
+    Value& views = require(order, "views");
+    static_cast<void>(require(require(views, "side"), "photo"));
+    for (const char* face : {"above", "below"})
+        static_cast<void>(require(*views.find("properties")->find(face), "photo"));
     const auto give_example = [&order](const char* member, Value example) {
         order.find("properties")
             ->find(member)
@@ -349,8 +410,8 @@ void add_bodies(Value& bodies, const Atlas&) {
     bodies.set(
         "trace_order",
         json_body(
-            "A stored photograph, where the mushroom is on it, and what is known "
-            "beside it.",
+            "Stored photographs, where the mushroom is on them, and what is known "
+            "beside them.",
             std::move(order),
             object(
                 {{"views",

@@ -1,16 +1,19 @@
 #include "core/grow/species_from_photo.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 #include <variant>
 
 #include "core/params/messages.h"
 #include "core/problems.h"
+#include "core/silhouette/outline.h"
 #include "core/trace/cut.h"
 #include "core/trace/likeness.h"
 #include "core/trace/photo_colours.h"
 #include "core/trace/photo_images.h"
+#include "core/trace/soil.h"
 
 namespace sporeprint {
 
@@ -25,8 +28,10 @@ constexpr double most_asymmetry = 0.03;
 
 /// Calls `steps` and reports what they refuse as a request does that can not be met, with paths as in a
 /// TraceSpec.
+///
+/// view  that is looked at, as its path
 template <class Steps>
-auto with_paths_of_spec(Steps steps) {
+auto with_paths_of_spec(Steps steps, const std::string& view = "/views/side") {
     try {
         return steps();
     } catch (const InvalidInput& refused) {
@@ -34,7 +39,7 @@ auto with_paths_of_spec(Steps steps) {
         for (Problem& problem : problems) {
             const std::string_view path = problem.path;
             if (path.starts_with("/gesture") || path.starts_with("/photo"))
-                problem.path.insert(0, "/views/side");
+                problem.path.insert(0, view);
             else if (path.starts_with("/silhouette") || path.starts_with("/model"))
                 problem = {"/views/side",
                            "what is on these lines cannot be grown, because its outline crosses "
@@ -73,8 +78,25 @@ trace::Mask cleaned(const trace::Mask& cut_out, const trace::Gesture& gesture,
     mask = trace::without_holes(trace::largest_part(mask));
     if (mask.area() == 0)
         throw InvalidInput("/gesture/axis",
-                           "nothing hangs together on this line; draw it from the foot to the top");
+                           "nothing hangs together on this line; draw it through the middle of the "
+                           "mushroom, from end to end");
     return mask;
+}
+
+/// Returns what a gesture cuts out of a photograph.
+///
+/// cut_out  as of mushroom_on()
+/// copy     its large working copy
+/// size     of the photograph
+trace::Mask cut_out_by(const trace::Gesture& gesture, const std::optional<trace::Mask>& cut_out,
+                       const Picture& copy, const trace::PictureSize& size) {
+    const trace::Gesture on_copy = gesture.scaled(static_cast<double>(copy.width) / size.width);
+    if (cut_out) {
+        require_axis_alone(gesture);
+        return cleaned(*cut_out, on_copy, copy);
+    }
+    trace::require_on(size, gesture);
+    return trace::cut_out_of_copy(copy, on_copy);
 }
 
 /// Requires that all points of an outline are on a photograph.
@@ -197,8 +219,46 @@ Grown stretched(const trace::FoundOutline& found, const trace::TraceParams& para
     return last;
 }
 
+/// What photographs from above and below show.
+struct FacesShown {
+    std::optional<trace::FaceShown> above, below;
+};
+
+FacesShown shown_by(const FacesOnPhotos& faces, const trace::Traced& traced) {
+    FacesShown shown;
+    if (!faces.above && !faces.below) return shown;
+    if (faces.below && traced.shape.silhouette.hymenium.empty())
+        throw InvalidInput("/views/below", std::string("a ") + trace::name(traced.form) +
+                                               " has no lower face; leave this photograph out");
+    const Outline outline = Outline::unproven(traced.shape.silhouette, "/silhouette");
+    if (faces.above) shown.above = trace::face_shown(*faces.above, outline, trace::Face::upper);
+    if (faces.below) shown.below = trace::face_shown(*faces.below, outline, trace::Face::lower);
+    return shown;
+}
+
+/// Gives each part the colours of the photograph that shows it best.
+void take_colours(trace::PartColours& colours, const FacesShown& shown) {
+    if (shown.above) {
+        std::array<glm::dvec3, trace::PartColours::places> cap{};
+        static_assert(trace::PartColours::places == trace::FaceShown::places);
+        const auto& quarters = shown.above->quarters;
+        for (std::size_t k = 0; k < cap.size(); ++k) cap[k] = quarters[k].value_or(glm::dvec3(0.0));
+        if (std::all_of(quarters.begin(), quarters.end(),
+                        [](const auto& quarter) { return quarter.has_value(); }))
+            colours.cap = cap;
+    }
+    if (!shown.below) return;
+    // Near the stem the face is in its shade, and near the margin there is some of the background.
+    for (const std::size_t k : {std::size_t{2}, std::size_t{1}, std::size_t{3}, std::size_t{0}})
+        if (shown.below->quarters[k]) {
+            colours.face = shown.below->quarters[k];
+            return;
+        }
+}
+
 /// Gives the photographed stage images, and a warning for each part that has none.
-void give_images(SpeciesFromPhoto& found, const trace::PhotoImages& images) {
+void give_images(SpeciesFromPhoto& found, const trace::PhotoImages& images,
+                 const FacesShown& shown) {
     constexpr int quality = 88;
     const auto give = [&](Upload& image, const std::optional<Picture>& picture, const char* part) {
         if (picture)
@@ -210,8 +270,29 @@ void give_images(SpeciesFromPhoto& found, const trace::PhotoImages& images) {
                                ", which is painted instead."});
     };
     Surface& surface = found.whole.species.stages[found.whole.stage].model.surface;
-    give(surface.cap.image, images.cap, "cap");
+    if (!shown.above)
+        give(surface.cap.image, images.cap, "cap");
+    else if (shown.above->image)
+        give(surface.cap.image, shown.above->image, "cap");
     give(surface.stem.image, images.stem, "stem");
+    if (shown.below && shown.below->image)
+        give(surface.hymenium.image, shown.below->image, "lower face");
+}
+
+/// Adds a warning for each face of which a photograph gives neither colours nor an image.
+void warn_of_faces(SpeciesFromPhoto& found, const FacesShown& shown) {
+    const auto warn = [&](const std::optional<trace::FaceShown>& face, const char* view,
+                          const char* part, const char* help) {
+        if (!face || face->image) return;
+        found.warnings.push_back(
+            {"images", face->is_round
+                           ? std::string("The photograph from ") + view +
+                                 " shows too little of the " + part + ", so it is not used."
+                           : std::string("What is cut out of the photograph from ") + view +
+                                 " is not as round as a cap, so it is not used" + help + "."});
+    };
+    warn(shown.above, "above", "cap", "");
+    warn(shown.below, "below", "lower face", "; a stem that is seen needs its end, stem_end");
 }
 
 std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
@@ -252,15 +333,8 @@ MushroomOnPhoto mushroom_on(const Picture& photo, const std::optional<trace::Mas
     Picture copy = trace::reduced(photo, trace::large_side);
     if (spec.outline) return outlined_on(std::move(copy), size, spec);
     return with_paths_of_spec([&] {
-        const trace::Gesture gesture = drawn_gesture(spec);
+        trace::Mask mask = cut_out_by(drawn_gesture(spec), cut_out, copy, size);
         const double factor = static_cast<double>(copy.width) / size.width;
-        if (cut_out) {
-            require_axis_alone(gesture);
-            trace::Mask mask = cleaned(*cut_out, gesture.scaled(factor), copy);
-            return MushroomOnPhoto{std::move(copy), std::move(mask), factor};
-        }
-        trace::require_on(size, gesture);
-        trace::Mask mask = trace::cut_out_of_copy(copy, gesture.scaled(factor));
         return MushroomOnPhoto{std::move(copy), std::move(mask), factor};
     });
 }
@@ -280,24 +354,61 @@ MushroomOnPhoto outlined_on(Picture copy, const trace::PictureSize& size,
     });
 }
 
-SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::TraceSpec& spec,
-                                    const Atlas& atlas, const NearestSpecies& nearest) {
+trace::FaceView face_on(const Picture& photo, const std::optional<trace::Mask>& cut_out,
+                        const trace::FaceViewSpec& spec, const std::string& path) {
+    const trace::PictureSize size{photo.width, photo.height};
+    Picture copy = trace::reduced(photo, trace::large_side);
+    trace::Mask mask = with_paths_of_spec(
+        [&] {
+            const trace::Gesture gesture =
+                spec.gesture ? trace::gesture_of(*spec.gesture) : trace::Gesture{};
+            return cut_out_by(gesture, cut_out, copy, size);
+        },
+        path);
+    return face_on_copy(std::move(copy), std::move(mask), size, spec, path);
+}
+
+trace::FaceView face_on_copy(Picture copy, trace::Mask mask, const trace::PictureSize& size,
+                             const trace::FaceViewSpec& spec, const std::string& path) {
+    std::vector<Problem> problems;
+    const double factor = static_cast<double>(copy.width) / size.width;
+    const auto on_copy = [&](const std::optional<trace::PhotoPoint>& point, const char* name) {
+        if (!point) return std::optional<glm::dvec2>();
+        const glm::dvec2 place = trace::place_of(*point);
+        if (place.x > size.width || place.y > size.height)
+            report(problems, path + "/" + name,
+                   "is not on the photograph of " + std::to_string(size.width) + " x " +
+                       std::to_string(size.height) + " pixels");
+        return std::optional(factor * place);
+    };
+    const std::optional<glm::dvec2> centre = on_copy(spec.centre, "centre"),
+                                    stem_end = on_copy(spec.stem_end, "stem_end");
+    if (!problems.empty()) throw Impossible(std::move(problems));
+    return {std::move(copy), std::move(mask), centre, stem_end};
+}
+
+SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhotos& faces,
+                                    const trace::TraceSpec& spec, const Atlas& atlas,
+                                    const NearestSpecies& nearest) {
     return with_paths_of_spec([&] {
         trace::Gesture gesture = drawn_gesture(spec).scaled(on.factor);
         if (gesture.axis.empty()) gesture.axis = trace::upright_line(on.mask);
         const bool was_reversed =
             gesture.axis.size() > 1 && !spec.outline && trace::is_reversed(gesture.axis, on.mask);
         if (was_reversed) std::reverse(gesture.axis.begin(), gesture.axis.end());
+        // An outline is what a person has said.
+        const trace::Mask mask =
+            spec.outline ? on.mask : trace::without_soil(on.picture, on.mask, gesture.axis);
+        const bool had_soil = mask.area() < on.mask.area();
         SpeciesFromPhoto found;
-        found.nearest =
-            nearest.find(trace::likeness_of(on.picture, on.mask), atlas.entries().size());
+        found.nearest = nearest.find(trace::likeness_of(on.picture, mask), atlas.entries().size());
         // Without a template, the form decides what can be one; otherwise the template has one.
         const bool is_any = spec.template_id.view() == "auto";
         std::optional<Trace> first;
         if (spec.outline)
             first = tried({outline_on_copy(spec, on.factor), spec.form}, {});
         else if (is_any)
-            first = traced_by_any_form(on.mask, gesture, {.form = spec.form});
+            first = traced_by_any_form(mask, gesture, {.form = spec.form});
         const NearSpecies chosen = is_any ? chosen_template(first->found.form, atlas, found.nearest)
                                           : named_template(spec.template_id, found.nearest);
         found.template_id = chosen.id;
@@ -305,7 +416,7 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::Trac
         const Species& lender = atlas.find(chosen.id)->species;
         trace::TraceParams params = trace::params_like(lender, chosen.age, 0.1);
         if (spec.form != trace::Form::automatic) params.form = spec.form;
-        if (!first) first = Trace{trace::outline_on(on.mask, gesture, params.form), std::nullopt};
+        if (!first) first = Trace{trace::outline_on(mask, gesture, params.form), std::nullopt};
         const trace::Form form = first->found.form;
         if (spec.hollow) params.hollow = *spec.hollow;
         const bool has_height = trace::can_be_template(lender, trace::has_face(form));
@@ -321,18 +432,26 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const trace::Trac
                      : stretched(first->found, params, lender, chosen.age);
         trace::Traced& traced = grown.traced;
         found.whole = std::move(grown.whole);
-        trace::give_colours(found.whole.species, found.whole.stage,
-                            trace::part_colours(on.picture, on.mask, traced));
+        const FacesShown shown = shown_by(faces, traced);
+        trace::PartColours colours = trace::part_colours(on.picture, mask, traced);
+        take_colours(colours, shown);
+        trace::give_colours(found.whole.species, found.whole.stage, colours);
         found.whole.species.id = spec.id;
         std::optional<trace::PhotoImages> images;
-        if (spec.images) images = trace::photo_images(on.picture, on.mask, traced, params.height_m);
+        if (spec.images) images = trace::photo_images(on.picture, mask, traced, params.height_m);
         found.traced = trace::on_copy(std::move(traced), 1.0 / on.factor);
         found.warnings = warnings_of(found);
         if (was_reversed)
             found.warnings.push_back({"reversed",
                                       "The line leads from the top of the mushroom to its foot; "
                                       "it was taken the other way round."});
-        if (images) give_images(found, *images);
+        if (had_soil)
+            found.warnings.push_back(
+                {"soil",
+                 "What the mushroom stands on was cut out with it, and is left "
+                 "out."});
+        if (images) give_images(found, *images, shown);
+        warn_of_faces(found, shown);
         return found;
     });
 }

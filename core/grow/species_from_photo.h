@@ -8,6 +8,7 @@
 #include "core/atlas/atlas.h"
 #include "core/grow/nearest_species.h"
 #include "core/surface/codecs.h"
+#include "core/trace/face_view.h"
 #include "core/trace/photo.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_spec.h"
@@ -17,7 +18,7 @@ namespace sporeprint {
 
 /// Something about a trace that a person should know.
 struct TraceWarning {
-    const char* code;    ///< for programs: asymmetry, method, likeness, reversed, images
+    const char* code;    ///< for programs: asymmetry, method, likeness, reversed, soil, images
     std::string detail;  ///< a sentence
 };
 
@@ -57,14 +58,41 @@ struct MushroomOnPhoto {
 [[nodiscard]] MushroomOnPhoto outlined_on(Picture copy, const trace::PictureSize& size,
                                           const trace::TraceSpec& spec);
 
+/// Returns the face of a cap on a photograph from above or below: what the gesture cuts out.
+///
+/// cut_out  as of mushroom_on()
+/// path     of the view in the TraceSpec, "/views/above" or "/views/below"
+/// throws   Impossible (paths below `path`) if the gesture is missing where one is needed, if it, the centre or
+///          the end of the stem are not on the photograph, or if nothing hangs together on it
+/// cost     as of mushroom_on()
+[[nodiscard]] trace::FaceView face_on(const Picture& photo,
+                                      const std::optional<trace::Mask>& cut_out,
+                                      const trace::FaceViewSpec& spec, const std::string& path);
+
+/// Returns the face of a cap on a photograph of which the working copy and the cap on it are known.
+///
+/// size    of the photograph
+/// throws  as above
+[[nodiscard]] trace::FaceView face_on_copy(Picture copy, trace::Mask mask,
+                                           const trace::PictureSize& size,
+                                           const trace::FaceViewSpec& spec,
+                                           const std::string& path);
+
+/// Other photographs of the same mushroom.
+struct FacesOnPhotos {
+    std::optional<trace::FaceView> above, below;
+};
+
 /// Returns the species of a photographed mushroom.
 ///
 /// on      as of mushroom_on()
+/// faces   as of face_on(); colours and images of what they show
 /// pre     the template is "auto" or a species of the atlas
-/// throws  Impossible (paths as in a TraceSpec) if the mask shows no mushroom that can be traced, or the
-///         template is no mushroom with a stem and a cap
-/// cost    about 40 ms
+/// throws  Impossible (paths as in a TraceSpec) if the mask shows no mushroom that can be traced, the
+///         template is no mushroom with a stem and a cap, or a form without a lower face is seen from below
+/// cost    about 40 ms, 60 more for each face
 [[nodiscard]] SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on,
+                                                  const FacesOnPhotos& faces,
                                                   const trace::TraceSpec& spec, const Atlas& atlas,
                                                   const NearestSpecies& nearest);
 

@@ -90,12 +90,65 @@ struct ViewSpec {
     bool operator==(const ViewSpec&) const = default;
 };
 
+/// A view of a face of the cap, from above or below.
+struct FaceViewSpec {
+    Text<22> photo;
+    std::optional<GestureSpec> gesture;
+    std::optional<PhotoPoint> centre, stem_end;
+
+    static constexpr void fields(auto visit) {
+        using F = FaceViewSpec;
+        visit(&F::photo,
+              Info{.name = "photo",
+                   .most = 22,
+                   .doc = "Name of an uploaded photograph, as POST /v1/photos gives it."});
+        visit(&F::gesture,
+              Info{.name = "gesture",
+                   .doc = "Where the cap is, by at most 16 lines, of which axis leads across it "
+                          "from edge to edge; may be left out for a picture that is cut out "
+                          "already."});
+        visit(&F::centre, Info{.name = "centre",
+                               .unit = "px",
+                               .max = 2048,
+                               .doc = "The apex of the cap seen from above, or where its stem is "
+                                      "fixed seen from below; without it the middle of what is "
+                                      "cut out."});
+        visit(&F::stem_end,
+              Info{.name = "stem_end",
+                   .unit = "px",
+                   .max = 2048,
+                   .doc = "Where the stem ends on a photograph from below: what is between it and "
+                          "the centre is hidden. Without it the stem points at the camera."});
+    }
+    /// Reports a missing photograph.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (photo.empty()) report(problems, path + "/photo", "is missing");
+    }
+    bool operator==(const FaceViewSpec&) const = default;
+};
+
 /// The views that are traced.
 struct ViewsSpec {
     ViewSpec side;
+    std::optional<FaceViewSpec> above, below;
 
     static constexpr void fields(auto visit) {
-        visit(&ViewsSpec::side, Info{.name = "side", .doc = "The mushroom seen from the side."});
+        using V = ViewsSpec;
+        visit(&V::side, Info{.name = "side", .doc = "The mushroom seen from the side."});
+        visit(&V::above,
+              Info{.name = "above",
+                   .doc = "Its cap seen from above, which gives the colours and the image of the "
+                          "cap; of a funnel or cup those of its inside."});
+        visit(&V::below,
+              Info{.name = "below",
+                   .doc = "Its cap seen from below, which gives the colours and the image of the "
+                          "lower face."});
+    }
+    /// Reports a stem that hides nothing.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (above && above->stem_end)
+            report(problems, path + "/above/stem_end",
+                   "is for a photograph from below; from above the cap hides its stem");
     }
     bool operator==(const ViewsSpec&) const = default;
 };
@@ -215,8 +268,9 @@ struct TraceSpec {
                                         "the template at its age."});
         visit(&T::images,
               Info{.name = "images",
-                   .doc = "Paint cap and stem with images from the photograph: laid flat, without "
-                          "its shade, closed round the mushroom."});
+                   .doc = "Paint cap and stem, and a lower face that is seen from below, with "
+                          "images from the photographs: laid flat, without their shade, closed "
+                          "round the mushroom."});
     }
     /// Reports a missing photograph, and ids that no species can have.
     void check(const std::string& path, std::vector<Problem>& problems) const {
@@ -239,6 +293,9 @@ struct TraceSpec {
 
 /// Returns a gesture as it is traced.
 [[nodiscard]] Gesture gesture_of(const GestureSpec& spec);
+
+/// Returns a place on a photograph.
+[[nodiscard]] inline glm::dvec2 place_of(const PhotoPoint& point) { return {point[0], point[1]}; }
 
 /// Returns an outline with marks as it is measured; none if there is none.
 [[nodiscard]] std::optional<MarkedOutline> marked_outline_of(const TraceSpec& spec);

@@ -74,7 +74,7 @@ struct Order {
                            spec);
     }
     [[nodiscard]] SpeciesFromPhoto traced(const MushroomOnPhoto& on) const {
-        return species_from_photo(on, spec, atlas(), nearest());
+        return species_from_photo(on, {}, spec, atlas(), nearest());
     }
 };
 

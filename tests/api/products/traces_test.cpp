@@ -1,6 +1,8 @@
 // POST /v1/traces and POST /v1/outlines/check.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "core/surface/codecs.h"
@@ -207,6 +209,74 @@ TEST_F(TraceRoutes, NameWhatIsWrong) {
     EXPECT_TRUE(names(null, "/views/side/gesture", "expected an object with the line axis"));
     expect_problem(trace("[]"), 400);
     expect_problem(trace("{}"), 400);
+}
+
+/// Returns the name of a picture of a round cap that is cut out, of one colour.
+std::string uploaded_cap(Service& service, std::array<std::uint8_t, 3> colour) {
+    constexpr int side = 300;
+    Bytes rgba;
+    rgba.reserve(std::size_t{4} * side * side);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const bool is_cap = (x - 150) * (x - 150) + (y - 150) * (y - 150) < 130 * 130;
+            rgba.insert(rgba.end(), {colour[0], colour[1], colour[2],
+                                     static_cast<std::uint8_t>(is_cap ? 255 : 0)});
+        }
+    const Bytes file = png(rgba, side, side);
+    const Response response =
+        handle(service, post(std::string(file.begin(), file.end()), "/v1/photos", "image/png"));
+    EXPECT_EQ(response.status, 201) << text_of(response);
+    return json_of(response).find("photo")->as_string();
+}
+
+TEST_F(TraceRoutes, TakeColoursAndImagesFromAboveAndBelow) {
+    const std::string side = uploaded(false), above = uploaded_cap(service(), {90, 60, 160}),
+                      below = uploaded_cap(service(), {200, 170, 60});
+    const std::string one = order(side, true, R"(,"images":true)");
+    const std::string views = R"(,"above":{"photo":")" + above + R"("},"below":{"photo":")" +
+                              below + R"(","centre":[150,150],"stem_end":[150,160]})";
+    std::string with_views = one;
+    with_views.insert(with_views.find(R"(},"images")"), views);
+    const auto surface = [](const Response& response) {
+        const Value found = json_of(response);
+        const auto stage = static_cast<std::size_t>(found.find("stage")->as_number());
+        return *found.at_pointer("/species/stages")->items()[stage].at_pointer("/model/surface");
+    };
+    const Response alone = trace(one), seen = trace(with_views);
+    ASSERT_EQ(seen.status, 200) << text_of(seen);
+    EXPECT_NE(surface(seen).at_pointer("/cap/ramp/0")->as_string(),
+              surface(alone).at_pointer("/cap/ramp/0")->as_string());
+    EXPECT_EQ(surface(alone).at_pointer("/hymenium/image"), nullptr);
+    ASSERT_NE(surface(seen).at_pointer("/hymenium/image"), nullptr);
+    // Both were cut out once, and give the same again.
+    EXPECT_EQ(text_of(trace(with_views)), text_of(seen));
+}
+
+TEST_F(TraceRoutes, NameWhatIsWrongWithOtherViews) {
+    const std::string side = uploaded(false);
+    const auto with = [&](const std::string& views) {
+        std::string body = order(side);
+        return trace(body.insert(body.size() - 2, ',' + views));
+    };
+    const Response gone = with(R"("above":{"photo":"AAAAAAAAAAAAAAAAAAAAAA"})");
+    expect_problem(gone, 404);
+    EXPECT_TRUE(names(gone, "/views/above/photo", "upload it again"));
+    const Response missing = with(R"("below":{})");
+    expect_problem(missing, 400);
+    EXPECT_TRUE(names(missing, "/views/below/photo", "is missing"));
+    const Response uncut = with(R"("below":{"photo":")" + side + R"("})");
+    expect_problem(uncut, 422);
+    EXPECT_TRUE(names(uncut, "/views/below/gesture", "is missing"));
+    const Response null = with(R"("below":{"photo":")" + side + R"(","gesture":null})");
+    expect_problem(null, 400);
+    EXPECT_TRUE(names(null, "/views/below/gesture", "got null"));
+    const std::string cap = uploaded_cap(service(), {90, 60, 160});
+    const Response outside = with(R"("above":{"photo":")" + cap + R"(","centre":[350,20]})");
+    expect_problem(outside, 422);
+    EXPECT_TRUE(names(outside, "/views/above/centre", "300 x 300"));
+    const Response stem = with(R"("above":{"photo":")" + cap + R"(","stem_end":[35,20]})");
+    expect_problem(stem, 400);
+    EXPECT_TRUE(names(stem, "/views/above/stem_end", "from above the cap hides its stem"));
 }
 
 TEST_F(TraceRoutes, CheckOutlines) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -50,7 +51,7 @@ trace::TraceSpec spec_of(const trace::Gesture& gesture) {
 
 SpeciesFromPhoto found_in(const Photograph& photo, const trace::TraceSpec& spec,
                           const std::optional<trace::Mask>& cut_out) {
-    return species_from_photo(mushroom_on(photo.picture, cut_out, spec), spec, *small_atlas(),
+    return species_from_photo(mushroom_on(photo.picture, cut_out, spec), {}, spec, *small_atlas(),
                               nearest());
 }
 
@@ -99,6 +100,101 @@ TEST(SpeciesFromPhoto, HasImagesOnRequest) {
     EXPECT_EQ(decoded_picture(surface(found).stem.image.bytes, "").width, 512);
     const Atlas loaded({.species = {dump(write(found.whole.species))}});
     EXPECT_EQ(loaded.find("my_mushroom")->species, found.whole.species);
+}
+
+trace::FaceView face_of(const Photograph& photo) {
+    return face_on(photo.picture, photo.truth, {}, "/views/above");
+}
+
+TEST(SpeciesFromPhoto, TakesColoursAndImagesFromOtherViews) {
+    const Photograph above =
+        photograph({"russula_emetica", 0.7, 3, View::top, 512}, Scenery::plain);
+    trace::TraceSpec spec = spec_of(bolete().gesture);
+    const MushroomOnPhoto side = mushroom_on(bolete().picture, std::nullopt, spec);
+    const auto surface = [&](const FacesOnPhotos& faces) {
+        const SpeciesFromPhoto found =
+            species_from_photo(side, faces, spec, *small_atlas(), nearest());
+        return found.whole.species.stages[found.whole.stage].model.surface;
+    };
+    const FacesOnPhotos both{face_of(above), face_of(above)};
+    const Surface alone = surface({}), seen = surface(both);
+    // A red cap instead of a brown one, and so its lower face, of which the same photograph is given.
+    const auto is_red = [](const Colour& colour) { return colour.r > 2 * colour.g; };
+    EXPECT_FALSE(is_red(alone.cap.ramp.front()));
+    EXPECT_TRUE(is_red(seen.cap.ramp.front()));
+    EXPECT_FALSE(is_red(alone.hymenium.colour));
+    EXPECT_TRUE(is_red(seen.hymenium.colour));
+    EXPECT_EQ(seen.stem.top, alone.stem.top);
+    EXPECT_TRUE(seen.hymenium.image.empty());
+    spec.images = true;
+    const Surface painted = surface(both);
+    EXPECT_FALSE(painted.hymenium.image.empty());
+    EXPECT_NE(painted.cap.image, surface({}).cap.image);
+}
+
+TEST(SpeciesFromPhoto, SaysOfWhichViewNothingWasUsed) {
+    trace::TraceSpec spec = spec_of(bolete().gesture);
+    const MushroomOnPhoto side = mushroom_on(bolete().picture, std::nullopt, spec);
+    // A whole mushroom from the side is not as round as a cap.
+    const SpeciesFromPhoto found = species_from_photo(side, {std::nullopt, face_of(bolete())}, spec,
+                                                      *small_atlas(), nearest());
+    const auto said = std::find_if(
+        found.warnings.begin(), found.warnings.end(),
+        [](const TraceWarning& warning) { return std::string_view(warning.code) == "images"; });
+    ASSERT_NE(said, found.warnings.end());
+    EXPECT_NE(said->detail.find("from below is not as round as a cap"), std::string::npos);
+}
+
+TEST(SpeciesFromPhoto, NamesWhatIsWrongWithAView) {
+    const Photograph& photo = bolete();
+    const auto refused = [&](const trace::FaceViewSpec& spec,
+                             const std::optional<trace::Mask>& cut_out) {
+        return refusal(
+            [&] { static_cast<void>(face_on(photo.picture, cut_out, spec, "/views/below")); });
+    };
+    EXPECT_TRUE(
+        names(refused({}, std::nullopt), "/views/below/gesture/axis", "at least two points"));
+    trace::FaceViewSpec beside;
+    beside.stem_end = {600.0, 20.0};
+    EXPECT_TRUE(names(refused(beside, photo.truth), "/views/below/stem_end",
+                      "is not on the photograph of 512 x 512 pixels"));
+    trace::TraceSpec spec;
+    spec.form = trace::Form::club;
+    const MushroomOnPhoto side = mushroom_on(photo.picture, photo.truth, spec);
+    EXPECT_TRUE(names(refusal([&] {
+                          static_cast<void>(species_from_photo(side, {std::nullopt, face_of(photo)},
+                                                               spec, *small_atlas(), nearest()));
+                      }),
+                      "/views/below", "a club has no lower face; leave this photograph out"));
+}
+
+TEST(SpeciesFromPhoto, LeavesOutTheSoilThatWasCutOutWithIt) {
+    // A plate of soil below the foot.
+    Photograph photo = photograph({"boletus_edulis", 0.7, 3, View::front, 512}, Scenery::plain);
+    const trace::Mask before = photo.truth;
+    const glm::dvec2 foot = photo.gesture.axis.front();
+    for (int y = 0; y < 512; ++y)
+        for (int x = 0; x < 512; ++x) {
+            const double across = (x - foot.x) / 150.0, down = (y - foot.y - 4.0) / 14.0;
+            if (across * across + down * down > 1.0 || before.at(x, y)) continue;
+            photo.truth.inside[photo.truth.index(x, y)] = 1;
+            const std::array<std::uint8_t, 3> earth = {66, 48, 36};
+            std::copy(earth.begin(), earth.end(),
+                      photo.picture.rgb.begin() +
+                          static_cast<std::ptrdiff_t>(3 * photo.truth.index(x, y)));
+        }
+    const SpeciesFromPhoto found = found_in(photo, {}, photo.truth),
+                           clean = found_in(bolete(), {}, before);
+    const auto foot_width = [](const SpeciesFromPhoto& of) {
+        return std::abs(of.traced.left[4].x - of.traced.right[4].x);
+    };
+    EXPECT_NEAR(foot_width(found), foot_width(clean), 0.3 * foot_width(clean));
+    EXPECT_TRUE(std::any_of(
+        found.warnings.begin(), found.warnings.end(),
+        [](const TraceWarning& warning) { return std::string_view(warning.code) == "soil"; }));
+    EXPECT_TRUE(std::none_of(
+        clean.warnings.begin(), clean.warnings.end(),
+        [](const TraceWarning& warning) { return std::string_view(warning.code) == "soil"; }));
 }
 
 TEST(SpeciesFromPhoto, WithoutAHeightHasThatOfItsTemplate) {
