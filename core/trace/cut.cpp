@@ -293,8 +293,7 @@ Mask cleaned(const Mask& mask, const Mask& strokes) {
 
 void require_on(const PictureSize& photo, const Gesture& gesture) {
     std::vector<Problem> problems;
-    if (gesture.axis.size() < 2)
-        report(problems, "/gesture/axis", "needs at least two points");
+    if (gesture.axis.size() < 2) report(problems, "/gesture/axis", "needs at least two points");
     const std::string size = std::to_string(photo.width) + " x " + std::to_string(photo.height);
     const auto require_stroke = [&](const Stroke& stroke, const std::string& path) {
         for (std::size_t i = 0; i < stroke.size(); ++i) {
@@ -336,7 +335,8 @@ Mask cut_out_of_copy(const Picture& large, const Gesture& gesture) {
     const Seeds of_large = seeds_of(is_beyond ? on_small.scaled(1.0 / scale) : gesture, large);
     if (first.area() == 0)
         throw InvalidInput("/gesture/axis",
-                           "nothing hangs together on this line; draw it through the middle of the mushroom, from end to end");
+                           "nothing hangs together on this line; draw it through the middle of the "
+                           "mushroom, from end to end");
     const Colours colours = colours_of(small, first, inverted(first), of_small.mushroom);
     return cleaned(refined(large, first, colours, of_large), of_large.mushroom);
 }
