@@ -122,7 +122,7 @@ std::string unknown_species(std::string_view id, const Atlas& atlas) {
     for (const std::string& known : ids)
         if (id.size() >= 3 && known.starts_with(lower(id)))
             return out + "; did you mean " + in_quotes(known) + "?";
-    return out;
+    return out + "; /v1/species lists all that there are";
 }
 
 Mix read_mix(std::string_view text, const Atlas& atlas, ValidationErrors& errors) {
