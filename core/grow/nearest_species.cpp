@@ -51,6 +51,21 @@ RgbaImage cut_out_picture(const MushroomSpec& spec, const Atlas& atlas,
     return image;
 }
 
+NearSpecies near_species(const trace::Likeness& likeness, const std::string& id,
+                         const Atlas& atlas) {
+    NearSpecies near{id, 0.0, {}};
+    bool is_first = true;
+    for (const Stage& stage : atlas.find(id)->species.stages) {
+        const trace::Unlikeness apart =
+            trace::unlikeness(likeness, likeness_at(id, stage.age, atlas));
+        if (!is_first && apart.total() >= near.apart.total()) continue;
+        near.age = stage.age;
+        near.apart = apart;
+        is_first = false;
+    }
+    return near;
+}
+
 NearestSpecies::NearestSpecies(const Atlas& atlas, const Parallel& parallel) {
     std::vector<std::vector<Drawn>> of_species(atlas.entries().size());
     std::vector<std::function<void()>> tasks;

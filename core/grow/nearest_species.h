@@ -29,6 +29,13 @@ struct NearSpecies {
     trace::Unlikeness apart;
 };
 
+/// Returns how near a species is, at the stage that it is nearest to, by pictures that are drawn for this.
+///
+/// id    of a species of the atlas
+/// cost  about 9 ms for each of its stages
+[[nodiscard]] NearSpecies near_species(const trace::Likeness& likeness, const std::string& id,
+                                       const Atlas& atlas);
+
 /// Pictures of all species of an atlas at each of their stages, as they are compared.
 class NearestSpecies {
   public:

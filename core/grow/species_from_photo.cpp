@@ -186,12 +186,16 @@ NearSpecies chosen_template(const trace::Form form, const Atlas& atlas,
 }
 
 /// Returns the template that a request names, and the age of the mushroom as it would be one of these.
-NearSpecies named_template(std::string_view id, const std::vector<NearSpecies>& sorted) {
+///
+/// sorted  of all species that the atlas lists
+NearSpecies named_template(std::string_view id, const std::vector<NearSpecies>& sorted,
+                           const trace::Likeness& likeness, const Atlas& atlas) {
+    const AtlasEntry* const entry = atlas.find(id);
+    if (!entry) throw InvalidInput("/template", "there is no species " + in_quotes(id));
+    const std::string own = entry->species.id.string();
     const auto found = std::find_if(sorted.begin(), sorted.end(),
-                                    [&](const NearSpecies& one) { return one.id == id; });
-    if (found == sorted.end())
-        throw InvalidInput("/template", "there is no species " + in_quotes(id));
-    return *found;
+                                    [&](const NearSpecies& one) { return one.id == own; });
+    return found != sorted.end() ? *found : near_species(likeness, own, atlas);
 }
 
 /// A trace and the species that has its shape.
@@ -401,7 +405,8 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhot
             spec.outline ? on.mask : trace::without_soil(on.picture, on.mask, gesture.axis);
         const bool had_soil = mask.area() < on.mask.area();
         SpeciesFromPhoto found;
-        found.nearest = nearest.find(trace::likeness_of(on.picture, mask), atlas.entries().size());
+        const trace::Likeness likeness = trace::likeness_of(on.picture, mask);
+        found.nearest = nearest.find(likeness, atlas.entries().size());
         // Without a template, the form decides what can be one; otherwise the template has one.
         const bool is_any = spec.template_id.view() == "auto";
         std::optional<Trace> first;
@@ -409,8 +414,9 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhot
             first = tried({outline_on_copy(spec, on.factor), spec.form}, {});
         else if (is_any)
             first = traced_by_any_form(mask, gesture, {.form = spec.form});
-        const NearSpecies chosen = is_any ? chosen_template(first->found.form, atlas, found.nearest)
-                                          : named_template(spec.template_id, found.nearest);
+        const NearSpecies chosen =
+            is_any ? chosen_template(first->found.form, atlas, found.nearest)
+                   : named_template(spec.template_id, found.nearest, likeness, atlas);
         found.template_id = chosen.id;
         found.nearest.resize(std::min(found.nearest.size(), most_named));
         const Species& lender = atlas.find(chosen.id)->species;

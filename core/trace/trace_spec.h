@@ -224,7 +224,7 @@ struct TraceSpec {
     ViewsSpec views;
     std::optional<OutlineLinesSpec> outline;
     std::optional<MarksSpec> marks;
-    Text<48> template_id{"auto"};
+    Text<64> template_id{"auto"};
     Text<48> id{"my_mushroom"};
     Form form = Form::automatic;
     std::optional<double> hollow;
@@ -244,7 +244,7 @@ struct TraceSpec {
                           "moved them. The form must be stated too."});
         visit(&T::template_id,
               Info{.name = "template",
-                   .most = 48,
+                   .most = 64,
                    .doc = "The species that lends all that the photograph does not show: other "
                           "ages, the lower face, ornaments, spread. auto: of those of its form "
                           "the one that it looks like most."});
@@ -285,7 +285,9 @@ struct TraceSpec {
                    "capped, funnel, morel, club, puffball or cup");
         if (const std::string said = invalid_id_message(id); !said.empty())
             report(problems, path + "/id", said);
-        if (const std::string said = invalid_id_message(template_id); !said.empty())
+        // Species of a library have names of their own.
+        if (const std::string said = invalid_id_message(template_id);
+            !said.empty() && !template_id.view().starts_with('~'))
             report(problems, path + "/template", said);
     }
     bool operator==(const TraceSpec&) const = default;

@@ -55,6 +55,12 @@ TEST(NearestSpecies, AreSortedAndEachIsNamedOnce) {
     std::sort(ids.begin(), ids.end());
     EXPECT_EQ(std::unique(ids.begin(), ids.end()), ids.end());
     EXPECT_TRUE(nearest().find(likeness, 0).empty());
+    // One species drawn alone is as near as among all.
+    for (const std::size_t i : {std::size_t{0}, found.size() / 2}) {
+        const NearSpecies alone = near_species(likeness, found[i].id, atlas());
+        EXPECT_EQ(alone.age, found[i].age);
+        EXPECT_EQ(alone.apart.total(), found[i].apart.total());
+    }
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
 TEST(SpeciesFromPhoto, IsOneThatAnAtlasCanHave) {
     for (const char* lender : {"boletus_edulis", "lactarius_deliciosus", "hydnum_repandum"}) {
         trace::TraceSpec spec = spec_of(bolete().gesture);
-        spec.template_id = Text<48>(std::string_view(lender));
+        spec.template_id = Text<64>(std::string_view(lender));
         const SpeciesFromPhoto found = found_in(bolete(), spec, std::nullopt);
         const Atlas loaded({.species = {dump(write(found.whole.species))}});
         EXPECT_EQ(loaded.find("my_mushroom")->species, found.whole.species) << lender;
@@ -199,7 +199,7 @@ TEST(SpeciesFromPhoto, LeavesOutTheSoilThatWasCutOutWithIt) {
 
 TEST(SpeciesFromPhoto, WithoutAHeightHasThatOfItsTemplate) {
     trace::TraceSpec spec = spec_of(bolete().gesture);
-    spec.template_id = Text<48>("russula_emetica");
+    spec.template_id = Text<64>("russula_emetica");
     const SpeciesFromPhoto found = found_in(bolete(), spec, std::nullopt);
     EXPECT_EQ(found.template_id, "russula_emetica");
     const Stage& made = found.whole.species.stages[found.whole.stage];
@@ -260,7 +260,7 @@ trace::TraceSpec spec_with_marks(const SpeciesFromPhoto& found) {
     spec.outline = {points(traced.left), points(traced.right), points(traced.axis)};
     spec.marks = {points(traced.junctions), points(traced.margins), traced.cap_turn_deg};
     spec.form = traced.form;
-    spec.template_id = Text<48>(std::string_view(found.template_id));
+    spec.template_id = Text<64>(std::string_view(found.template_id));
     return spec;
 }
 
@@ -341,7 +341,7 @@ TEST(SpeciesFromPhoto, NamesWhatCanNotBeTracedInTheWordsOfTheRequest) {
     };
     EXPECT_TRUE(names(refused({}, std::nullopt), "/views/side/gesture/axis", "two points"));
     trace::TraceSpec spec = spec_of(bolete().gesture);
-    spec.template_id = Text<48>("artomyces_pyxidatus");
+    spec.template_id = Text<64>("artomyces_pyxidatus");
     EXPECT_TRUE(names(refused(spec, std::nullopt), "/template", "artomyces_pyxidatus"));
     trace::Mask speck(bolete().picture.width, bolete().picture.height);
     speck.inside[speck.index(100, 100)] = 1;
@@ -398,12 +398,12 @@ TEST(SpeciesFromPhoto, OfAnOutlineThatCannotBeGrownIsAStretchedTemplate) {
                 << lod << ' ' << age;
         }
     // A template that is stated lends the same form.
-    spec.template_id = Text<48>(std::string_view(found.template_id));
+    spec.template_id = Text<64>(std::string_view(found.template_id));
     spec.form = found.traced.form;
     EXPECT_EQ(found_in(photo, spec, photo.truth).traced.method, trace::TraceMethod::stretched);
     // One that has not its parts is named.
     spec.template_id =
-        Text<48>(trace::has_face(spec.form) ? "morchella_esculenta" : "boletus_edulis");
+        Text<64>(trace::has_face(spec.form) ? "morchella_esculenta" : "boletus_edulis");
     EXPECT_TRUE(names(refusal([&] { static_cast<void>(found_in(photo, spec, photo.truth)); }),
                       "/template"));
 }

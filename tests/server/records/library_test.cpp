@@ -185,6 +185,25 @@ TEST_P(LibraryRoutes, PublishedSpeciesMixMorphAndFormColonies) {
     EXPECT_EQ(ask("GET", "/v1/mushrooms/~kaja.red_bolete@1:1,~kaja.red_bolete:1.json").status, 400);
 }
 
+TEST_P(LibraryRoutes, PublishedSpeciesLendWhatAPhotographDoesNotShow) {
+    publish("red_bolete");
+    const std::string portrait =
+        "/v1/mushrooms/~kaja.red_bolete.png?view=front&width=256&height=256&background=transparent";
+    Request upload{"POST", "/v1/photos", {{"Content-Type", "image/png"}}, "", "test-1"};
+    upload.body = text_of(ask("GET", portrait));
+    const std::string photo = json_of(handle(*service_, upload)).find("photo")->as_string();
+    const auto traced = [&](const std::string& lender) {
+        return ask(
+            "POST", "/v1/traces", "",
+            R"({"views":{"side":{"photo":")" + photo + R"("}},"template":")" + lender + "\"}");
+    };
+    const Response found = traced("~kaja.red_bolete");
+    ASSERT_EQ(found.status, 200) << text_of(found);
+    EXPECT_EQ(json_of(found).find("template")->as_string(), "~kaja.red_bolete@1");
+    EXPECT_EQ(traced("~kaja.no_such").status, 404);
+    EXPECT_EQ(traced("~kaja.Red").status, 404);
+}
+
 TEST_P(LibraryRoutes, AVersionHasItsBytesAfterARestart) {
     publish("red_bolete");
     const std::string target = "/v1/mushrooms/~kaja.red_bolete@1.glb?lod=2&textures=none";
