@@ -1,5 +1,6 @@
 #include "api/products/library_access.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -21,8 +22,8 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
     const std::optional<Secret> secret = bearer ? read_secret(token_prefix, *bearer) : std::nullopt;
     if (!secret)
         return unauthorized(responses, request,
-                            "the Authorization header is not 'Bearer' and a token, spk_ with 8 and "
-                            "43 characters");
+                            "the Authorization header is not a single 'Bearer' and a token, spk_ "
+                            "with 8 and 43 characters");
     const std::optional<Token> token = library.records().token(secret->id);
     const Seconds now = library.now();
     if (!has_secret(token, *secret))
@@ -52,6 +53,11 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
 
 std::optional<std::string_view> bearer_of(const Request& request) {
     const std::string_view given = request.header("Authorization");
+    // A proxy and this service must not each believe another one of several.
+    const auto count =
+        std::count_if(request.headers.begin(), request.headers.end(),
+                      [](const Header& one) { return same_word(one.first, "Authorization"); });
+    if (count > 1) return std::nullopt;
     constexpr std::string_view scheme = "Bearer ";
     if (given.size() <= scheme.size() || !same_word(given.substr(0, scheme.size()), scheme))
         return std::nullopt;

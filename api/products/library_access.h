@@ -68,7 +68,8 @@ struct LibraryCall {
                                                            const Request& request, Access access,
                                                            Scope scope);
 
-/// Returns what stands after "Bearer" in the Authorization header; nothing if the header is another.
+/// Returns what stands after "Bearer" in the Authorization header; nothing if the header is another, or there are
+/// several.
 [[nodiscard]] std::optional<std::string_view> bearer_of(const Request& request);
 
 /// Returns true if a key is that of a share of this species that is still good.

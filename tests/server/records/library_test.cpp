@@ -635,6 +635,17 @@ std::string path_of(std::string pattern) {
     return pattern;
 }
 
+TEST_P(LibraryRoutes, OfSeveralTokensNoneCounts) {
+    Request request{"GET", "/v1/library/quota", {}, "", "test-1"};
+    for (const char* const who : {"kaja read", "sami read"})
+        request.headers.emplace_back("Authorization", "Bearer " + tokens_.at(who));
+    const Response response = handle(*service_, request);
+    EXPECT_EQ(response.status, 401);
+    EXPECT_NE(detail_of(response).find("single 'Bearer'"), std::string::npos);
+    request.headers.pop_back();
+    EXPECT_EQ(handle(*service_, request).status, 200);
+}
+
 TEST_P(LibraryRoutes, EveryRouteAsksForItsToken) {
     publish("red_bolete");
     const std::string expired = token("kaja", Scope::admin, now_ - 1),
