@@ -310,6 +310,29 @@ void hide_near(Disc& disc, const std::vector<std::size_t>& others) {
     }
 }
 
+/// Hides what is none of the skin. Caps change their hue from the middle to the margin; round a lower face the skin of
+/// the cap is seen, whose hue may be common there.
+void hide_other_hues(Disc& disc, Face face) {
+    std::array<std::vector<Pixel>, bands> seen;
+    std::vector<Pixel> all;
+    for (std::size_t i = 0; i < disc.pixels.size(); ++i) {
+        if (!disc.patch.is_seen[i]) continue;
+        seen[band_of(disc.shares[i])].push_back(disc.pixels[i]);
+        all.push_back(disc.pixels[i]);
+    }
+    std::array<Hue, bands> hues{};
+    hues.fill(commonest_hue(std::move(all)));
+    if (face == Face::upper)
+        for (std::size_t k = 0; k < bands; ++k) hues[k] = commonest_hue(std::move(seen[k]));
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < disc.pixels.size(); ++i)
+        if (disc.patch.is_seen[i] &&
+            !are_near(hue_of(disc.pixels[i]), hues[band_of(disc.shares[i])],
+                      face == Face::upper ? other_hue : other_hue_below))
+            others.push_back(i);
+    hide_near(disc, others);
+}
+
 Disc disc_of(const FaceView& view, const Outline& outline, Face face) {
     const Meridian meridian(outline, face);
     const double widest = std::max(widest_of(outline.cap), widest_of(outline.hymenium));
@@ -330,10 +353,10 @@ Disc disc_of(const FaceView& view, const Outline& outline, Face face) {
     disc.places.assign(texels, {});
     disc.pixels.assign(texels, {});
     disc.shares.assign(texels, -1.0);
-    std::array<std::vector<Pixel>, bands> seen;
     for (std::size_t i = 0; i < texels; ++i) {
-        const double x = 2.0 * (static_cast<double>(i % image_side) + 0.5) / side - 1.0,
-                     y = 2.0 * (static_cast<double>(i / image_side) + 0.5) / side - 1.0;
+        const std::size_t column = i % image_side, row = i / image_side;
+        const double x = 2.0 * (static_cast<double>(column) + 0.5) / side - 1.0,
+                     y = 2.0 * (static_cast<double>(row) + 0.5) / side - 1.0;
         const double radius = std::sqrt(x * x + y * y);
         if (radius > 1.0 || radius < inner) continue;
         ++disc.texels;
@@ -347,26 +370,11 @@ Disc disc_of(const FaceView& view, const Outline& outline, Face face) {
         disc.patch.light[i] = light.at(at);
         const SineCosine turn = sine_cosine(angle);
         disc.places[i].normal = {place.steepness * turn.cosine, place.steepness * turn.sine};
-        if (!place.is_seen || !is_well_inside(view.mask, at)) continue;
-        if (stem.hides(at)) continue;
+        if (!place.is_seen || stem.hides(at) || !is_well_inside(view.mask, at)) continue;
         disc.patch.is_seen[i] = true;
         disc.pixels[i] = light.pixel(at);
-        seen[band_of(share)].push_back(disc.pixels[i]);
     }
-    // Caps change their hue from the middle to the margin; round a lower face the skin of the cap is seen.
-    std::array<Hue, bands> hues{};
-    std::vector<Pixel> all;
-    for (const std::vector<Pixel>& band : seen) all.insert(all.end(), band.begin(), band.end());
-    hues.fill(commonest_hue(std::move(all)));
-    if (face == Face::upper)
-        for (std::size_t k = 0; k < bands; ++k) hues[k] = commonest_hue(std::move(seen[k]));
-    std::vector<std::size_t> others;
-    for (std::size_t i = 0; i < texels; ++i)
-        if (disc.patch.is_seen[i] &&
-            !are_near(hue_of(disc.pixels[i]), hues[band_of(disc.shares[i])],
-                      face == Face::upper ? other_hue : other_hue_below))
-            others.push_back(i);
-    hide_near(disc, others);
+    hide_other_hues(disc, face);
     constexpr std::size_t rows = 64;
     for (std::size_t i = 0; i < texels; ++i)
         if (disc.patch.is_seen[i])

@@ -96,8 +96,9 @@ TEST(Unshade, DividesByTheShadeOfADomeLitFromOneSide) {
     std::vector<trace::ShadePlace> places(side * side);
     const auto colour = [](std::size_t row) { return 0.2 + 0.05 * static_cast<double>(row); };
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const double x = (static_cast<double>(i % side) + 0.5) / (0.5 * side) - 1.0,
-                     y = (static_cast<double>(i / side) + 0.5) / (0.5 * side) - 1.0;
+        const std::size_t column = i % side, row = i / side;
+        const double x = (static_cast<double>(column) + 0.5) / (0.5 * side) - 1.0,
+                     y = (static_cast<double>(row) + 0.5) / (0.5 * side) - 1.0;
         const double radius = std::sqrt(x * x + y * y);
         if (radius > 1.0) continue;
         places[i] = {static_cast<std::size_t>(radius * rows * 0.999), {x, y}};
