@@ -6,10 +6,12 @@
 #include <utility>
 #include <variant>
 
+#include "core/individual/mushroom_spec.h"
 #include "core/params/messages.h"
 #include "core/problems.h"
 #include "core/silhouette/outline.h"
 #include "core/trace/cut.h"
+#include "core/trace/edge.h"
 #include "core/trace/likeness.h"
 #include "core/trace/photo_colours.h"
 #include "core/trace/photo_images.h"
@@ -443,6 +445,8 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhot
         take_colours(colours, shown);
         trace::give_colours(found.whole.species, found.whole.stage, colours);
         found.whole.species.id = spec.id;
+        // What nobody has stated an age for grows as it was photographed.
+        trace::move_ages(found.whole.species, found.whole.stage, MushroomParams{}.age);
         std::optional<trace::PhotoImages> images;
         if (spec.images) images = trace::photo_images(on.picture, mask, traced, params.height_m);
         found.traced = trace::on_copy(std::move(traced), 1.0 / on.factor);
@@ -451,6 +455,10 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhot
             found.warnings.push_back({"reversed",
                                       "The line leads from the top of the mushroom to its foot; "
                                       "it was taken the other way round."});
+        if (!spec.outline && trace::edge_of(on.picture, on.mask) < trace::least_edge)
+            found.warnings.push_back({"edge",
+                                      "There is hardly an edge along this outline; look whether it "
+                                      "is that of a mushroom."});
         if (had_soil)
             found.warnings.push_back(
                 {"soil",

@@ -18,7 +18,7 @@ namespace sporeprint {
 
 /// Something about a trace that a person should know.
 struct TraceWarning {
-    const char* code;    ///< for programs: asymmetry, method, likeness, reversed, soil, images
+    const char* code;  ///< for programs: asymmetry, method, likeness, reversed, edge, soil, images
     std::string detail;  ///< a sentence
 };
 

@@ -211,6 +211,19 @@ WholeSpecies sized_species(const Species& template_species, const std::vector<Ax
     return found;
 }
 
+void move_ages(Species& species, std::size_t stage, double age) {
+    const double before = species.stages.at(stage).age;
+    // Four digits, so that the document is short; stages are farther apart.
+    constexpr double digits = 1e4;
+    for (Stage& other : species.stages) {
+        const double moved = other.age == before ? age
+                             : other.age < before
+                                 ? other.age * age / before
+                                 : age + (other.age - before) * (1.0 - age) / (1.0 - before);
+        other.age = std::floor(moved * digits + 0.5) / digits;
+    }
+}
+
 double hollow_of(const Silhouette& silhouette) {
     double edge = silhouette.hymenium.back().y;
     for (const OutlinePoint& point : silhouette.cap) edge = std::max(edge, point.y);

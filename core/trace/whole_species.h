@@ -68,6 +68,12 @@ void require_template(const Species& species, bool has_face);
                                          const std::vector<AxisPoint>& axis, double height_m,
                                          double age);
 
+/// Moves the ages of a species so that one of its stages is at a given age: those before and after it keep their
+/// order and their shares of the time to 0 and to 1. Its shapes stay, and what is proven of them.
+///
+/// age  greater than 0 and less than 1, or what the stage has already
+void move_ages(Species& species, std::size_t stage, double age);
+
 /// Returns how deep the cap of an outline is, of the height of its edge above its stem: what TraceParams::hollow
 /// says of a traced one, within its range.
 ///

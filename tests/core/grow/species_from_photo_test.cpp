@@ -71,7 +71,10 @@ TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
     EXPECT_EQ(found.template_id, "boletus_edulis");
     EXPECT_EQ(found.nearest.size(), 5U);
     EXPECT_TRUE(found.whole.certificate.simple);
-    EXPECT_NEAR(height_of(found.whole.species.stages[found.whole.stage]), 0.25, 0.01);
+    const Stage& photographed = found.whole.species.stages[found.whole.stage];
+    EXPECT_NEAR(height_of(photographed), 0.25, 0.01);
+    // Who asks for no age gets the photographed one.
+    EXPECT_NEAR(photographed.age, MushroomParams{}.age, 1e-9);
     // In pixels of the photograph: from the foot to the apex.
     EXPECT_NEAR(found.traced.left.front().y, bolete().gesture.axis.front().y, 40.0);
     EXPECT_LT(found.traced.left.back().y, found.traced.left.front().y);

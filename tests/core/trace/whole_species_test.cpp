@@ -65,6 +65,31 @@ TEST(WholeSpecies, IsOfSpeciesWithItsParts) {
               height_of(shape_of(own.stages[3]).silhouette));
 }
 
+TEST(MoveAges, KeepsTheOrderAndTheSharesOfTime) {
+    for (const std::size_t stage : {std::size_t{0}, std::size_t{2}, std::size_t{5}}) {
+        const Species own = species_of("amanita_muscaria");
+        ASSERT_EQ(own.stages.size(), 6U);
+        Species moved = own;
+        trace::move_ages(moved, stage, 0.6);
+        EXPECT_EQ(moved.stages[stage].age, 0.6);
+        const double before = own.stages[stage].age;
+        for (std::size_t i = 0; i < own.stages.size(); ++i) {
+            if (i > 0) {
+                EXPECT_GT(moved.stages[i].age, moved.stages[i - 1].age);
+            }
+            const double from = own.stages[i].age, to = moved.stages[i].age;
+            if (i < stage) {
+                EXPECT_NEAR(to / 0.6, from / before, 2e-4);
+            } else if (i > stage) {
+                EXPECT_NEAR((1.0 - to) / 0.4, (1.0 - from) / (1.0 - before), 3e-4);
+            }
+        }
+        for (std::size_t i = 0; i < own.stages.size(); ++i)
+            moved.stages[i].age = own.stages[i].age;
+        EXPECT_EQ(moved, own);
+    }
+}
+
 TEST(GrowthCertificate, IsTrueOfSpeciesAndFalseOfACrossingStage) {
     Species species = species_of("boletus_edulis");
     EXPECT_TRUE(trace::growth_certificate(species).simple);
