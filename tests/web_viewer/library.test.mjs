@@ -110,18 +110,30 @@ test("of two writers of a draft the later one chooses, and nothing is lost", asy
     await page.locator("#tab-library").click();
     await page.locator("#library-conflict").waitFor({ timeout: 60_000 });
     assert.equal((await (await fetch(path, { headers })).json()).facts.common_name, "Theirs");
-    await page.getByRole("button", { name: "Save mine under another name" }).click();
+    await page.getByRole("button", { name: "Save this one as cep_of_two_2" }).click();
     await page.locator("#library-state", { hasText: "cep_of_two_2" }).waitFor();
     assert.equal((await (await fetch(path, { headers })).json()).facts.common_name, "Theirs");
     assert.equal((await fetch(`${path}_2`, { headers })).status, 200);
+    // A name that is taken: what was wanted is done after the choice, and the choice is gone.
+    await page.locator("#library-name").fill("cep_of_two");
+    await page.locator("#library-publish").click();
+    await page.locator("#library-conflict", { hasText: "You have a species ~me.cep_of_two already." }).waitFor();
+    await page.getByRole("button", { name: "Make this its next version" }).click();
+    await page.locator("#library-published", { hasText: "~me.cep_of_two@1" }).waitFor();
+    assert.ok(await page.locator("#library-conflict").isHidden());
+    assert.notEqual((await (await fetch(path, { headers })).json()).facts.common_name, "Theirs");
     await page.context().close();
 });
 
 test("species of the library are listed and opened again; a wrong token is named", async () => {
-    const { page } = await open("");
+    // Of a link whose end was lost nothing stays in the address.
+    const { page } = await open("#token=spk_abcdefgh_AAA");
+    assert.equal(page.url(), `${base}/editor`);
     await page.locator("#tab-library").click();
+    await page.locator("#library-error", { hasText: "a token is spk_" }).waitFor();
+    await page.locator("#token").fill("spk_");
     await page.locator("#token").press("Enter");
-    await page.locator("#library-error", { hasText: "begins with spk_" }).waitFor();
+    await page.locator("#library-error", { hasText: "a token is spk_" }).waitFor();
     await page.locator("#token").fill(`spk_abcdefgh_${"A".repeat(43)}`);
     await page.locator("#token").press("Enter");
     await page.locator("#library-error", { hasText: "no such token" }).waitFor();

@@ -243,7 +243,7 @@ export class LibraryPanel implements OwnSpecies {
             return this.showError(
                 new RequestFailed(
                     "This is no token",
-                    "a token begins with spk_ and has 56 characters; the whole address that the server has printed will do too",
+                    "a token is spk_, 8 letters or digits, _ and 43 characters; the whole address that the server has printed will do too",
                     0,
                 ),
             );
@@ -352,14 +352,15 @@ export class LibraryPanel implements OwnSpecies {
         clearTimeout(this.saving);
         this.writing = this.writing.then(async () => {
             this.showError(undefined);
+            this.conflict.hidden = true;
             const focused = document.activeElement;
             this.save.disabled = this.publish.disabled = true;
             try {
                 await act();
             } catch (error) {
                 const failed = asRequestFailed(error, "It cannot be saved");
-                if (failed.status === 412) this.showConflict();
-                else if (failed.status !== 409 || !this.showTaken()) this.showError(failed);
+                if (failed.status === 412) this.showSavedElsewhere(act);
+                else if (failed.status !== 409 || !this.showTaken(act)) this.showError(failed);
             } finally {
                 this.showState();
                 // A disabled button loses the focus.
@@ -425,43 +426,59 @@ export class LibraryPanel implements OwnSpecies {
 
     /** Offers what can be done if the user has another species of this name; returns false if there is none, since
      *  it was withdrawn. */
-    private showTaken(): boolean {
+    private showTaken(act: () => Promise<void>): boolean {
         const name = this.name.value.trim();
         const id = `~${this.quota?.owner ?? ""}.${name}`;
         if (!this.list.querySelector(`[data-library="${id}"]`)) return false;
         this.follow({ id, name, etag: "", text: "" });
-        this.showConflict(`You have a species ${id} already.`);
+        this.showConflict(act, {
+            reason: `You have a species ${id} already.`,
+            mine: "Make this its next version",
+            theirs: "Open that one, and leave this one",
+        });
         return true;
     }
 
     /** Offers what can be done if the draft in the library is another one. */
-    private showConflict(reason?: string): void {
-        const choice = (label: string, act: () => Promise<void>): HTMLButtonElement => {
-            const button = make("button", { type: "button" }, label);
-            button.addEventListener("click", () => {
-                this.conflict.hidden = true;
-                void this.write(act);
-            });
-            return button;
-        };
+    private showSavedElsewhere(act: () => Promise<void>): void {
+        this.showConflict(act, {
+            reason: `${this.link?.id ?? "The draft"} was saved elsewhere since it was opened here.`,
+            mine: "Save this one over it",
+            theirs: "Open what was saved there",
+        });
+    }
+
+    /** Offers three ways out of a conflict; what was wanted is then done. */
+    private showConflict(
+        act: () => Promise<void>,
+        { reason, mine, theirs }: { reason: string; mine: string; theirs: string },
+    ): void {
         const { library, link } = this;
         if (!library || !link) return;
-        this.say(reason ?? `${link.id} was saved elsewhere since it was opened here.`);
+        const choice = (label: string, way: string, chosen: () => Promise<void>): HTMLButtonElement => {
+            const button = make("button", { type: "button", "data-way": way }, label);
+            button.addEventListener("click", () => void this.write(chosen));
+            return button;
+        };
+        const other = `${this.name.value.trim().slice(0, 21)}_2`;
+        this.say("");
         this.conflict.replaceChildren(
-            choice("Keep mine", async () => {
+            make("p", { class: "validation-error" }, reason),
+            choice(mine, "mine", async () => {
                 link.etag = (await library.draft(link.id)).etag;
                 link.text = "";
-                await this.saved();
+                await act();
             }),
-            choice("Take theirs", () => this.openDraft(link.id, link.name)),
-            choice("Save mine under another name", async () => {
+            choice(theirs, "theirs", () => this.openDraft(link.id, link.name)),
+            choice(`Save this one as ${other}`, "other", async () => {
                 this.follow(undefined);
-                this.name.value = `${this.name.value.slice(0, 21)}_2`;
-                await this.saved();
+                this.name.value = other;
+                await act();
             }),
         );
         this.conflict.hidden = false;
-        (this.conflict.firstElementChild as HTMLElement | null)?.focus();
+        announce(reason);
+        this.conflict.querySelector("button")?.focus();
     }
 
     get isSignedIn(): boolean {

@@ -1,6 +1,4 @@
 // What the browser stores of the library: the token of who is signed in, and the draft that is worked on.
-import { tokenIn } from "./library";
-
 const tokenKey = "sporeprint-token";
 const linkKey = "sporeprint-library-draft";
 
@@ -11,11 +9,12 @@ export interface StoredLink {
     etag: string;
 }
 
-/** Returns the token in the address of the page, and takes it out: the address is in the history of the browser. */
+/** Returns what the address of the page has as a token, which may be none, and takes it out: the address is in the
+ *  history of the browser. */
 export function takeTokenOfAddress(): string | undefined {
-    const token = tokenIn(location.hash);
-    if (token) history.replaceState(null, "", location.pathname + location.search);
-    return token;
+    const given = /^#token=(.*)$/.exec(location.hash)?.[1];
+    if (given !== undefined) history.replaceState(null, "", location.pathname + location.search);
+    return given;
 }
 
 /** Returns the token of this visit, or else the one that stays. */
