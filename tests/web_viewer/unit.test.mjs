@@ -919,20 +919,62 @@ test("a gesture is sent without what was not drawn, its frame as a rectangle", (
         images: false,
         heightMm: undefined,
     };
-    assert.deepEqual(page.orderOf(drawing), { gesture: { axis }, template: "auto", form: "auto", images: false });
+    const side = { side: "p1" };
+    assert.deepEqual(page.orderOf(drawing, side), {
+        views: { side: { photo: "p1", gesture: { axis } } },
+        template: "auto",
+        form: "auto",
+        images: false,
+    });
     const framed = page.withStroke(drawing.gesture, "frame", [
         [9, 2],
         [1, 12],
     ]);
-    const order = page.orderOf({ gesture: framed, template: "x", form: "cup", images: true, heightMm: 80 });
+    const order = page.orderOf({ gesture: framed, template: "x", form: "cup", images: true, heightMm: 80 }, side);
     assert.deepEqual(order, {
-        gesture: { axis, frame: [1, 2, 8, 10] },
+        views: { side: { photo: "p1", gesture: { axis, frame: [1, 2, 8, 10] } } },
         template: "x",
         form: "cup",
         images: true,
         height_m: 0.08,
     });
-    assert.deepEqual(page.orderOf(page.startOfDrawing), { template: "auto", form: "auto", images: true });
+    assert.deepEqual(page.orderOf(page.startOfDrawing, side), {
+        views: { side: { photo: "p1" } },
+        template: "auto",
+        form: "auto",
+        images: true,
+    });
+});
+
+test("photographs of the cap are sent with what was drawn on them", () => {
+    const across = [
+        [2, 5],
+        [8, 5],
+    ];
+    const drawn = page.withStroke(page.nothingDrawn, "axis", across);
+    const drawing = {
+        ...page.startOfDrawing,
+        source: 1,
+        views: {
+            above: { source: 4, gesture: drawn, centre: [5, 4], stemEnd: undefined },
+            below: { source: 2, gesture: page.nothingDrawn, centre: undefined, stemEnd: [5, 9] },
+        },
+    };
+    const { views } = page.orderOf(drawing, { side: "p1", above: "p4", below: "p2" });
+    assert.deepEqual(views, {
+        side: { photo: "p1" },
+        above: { photo: "p4", gesture: { axis: across }, centre: [5, 4] },
+        below: { photo: "p2", stem_end: [5, 9] },
+    });
+    const named = page.orderOf(drawing, { side: "p1", below: "p2" });
+    assert.deepEqual(Object.keys(named.views), ["side", "below"], "one without a name is left out");
+    assert.deepEqual(page.sourcesOf(drawing), [1, 4, 2]);
+    assert.deepEqual(page.sourcesOf(page.startOfDrawing), []);
+    const isComplete = (gesture, cutOut) => page.isComplete({ gesture }, cutOut);
+    assert.equal(isComplete(page.nothingDrawn, false), false);
+    assert.equal(isComplete(page.nothingDrawn, true), true, "a picture that is cut out needs no line");
+    assert.equal(isComplete(page.withStroke(page.nothingDrawn, "cap", across), true), false);
+    assert.equal(isComplete(drawn, false), true);
 });
 
 test("strokes that correct add up, the two lines are drawn anew", () => {
@@ -976,6 +1018,8 @@ test("a pointer of the service finds its place on the designer's page", () => {
         assert.equal(page.placeOf(`/views/side/gesture/${tool}/0/1`), tool);
     assert.equal(page.placeOf("/views/side"), "photo");
     assert.equal(page.placeOf("/views/side/photo"), "photo");
+    for (const pointer of ["", "/photo", "/gesture", "/gesture/axis/0", "/centre"])
+        for (const side of page.capSides) assert.equal(page.placeOf(`/views/${side}${pointer}`), side);
     assert.equal(page.placeOf("/height_m"), "height");
     assert.equal(page.placeOf("/template"), "template");
     assert.equal(page.placeOf("/elsewhere"), undefined);

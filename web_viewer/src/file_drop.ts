@@ -21,8 +21,8 @@ function acceptChosen(open: (file: File) => void): void {
     });
 }
 
-/** Calls `open` for each file that is dropped on the page. */
-export function acceptDropped(open: (file: File) => void): void {
+/** Calls `open` for each file that is dropped on the page, with what it was dropped on. */
+export function acceptDropped(open: (file: File, on: EventTarget | null) => void): void {
     const overlay = byId("drop");
     const carriesFile = (event: DragEvent): boolean =>
         event.dataTransfer?.types.includes("Files") ?? false;
@@ -39,7 +39,7 @@ export function acceptDropped(open: (file: File) => void): void {
         const dropped = event.dataTransfer?.files[0];
         if (!dropped) return;
         event.preventDefault();
-        open(dropped);
+        open(dropped, event.target);
     });
 }
 

@@ -101,13 +101,23 @@ export async function designersDraft(signal: AbortSignal): Promise<Species> {
     const file = draft?.files.get(draft.drawing.source ?? -1);
     if (!draft || !file) throw new Error("The designer has no draft in this browser");
     const source = await sourceOf(file, signal);
+    const ofCap: Photograph[] = [];
+    const photographOf = async (number: number): Promise<Photograph> => {
+        const photograph = await Photograph.upload(
+            draft.files.get(number) ?? new Blob(),
+            signal,
+            () => undefined,
+        );
+        ofCap.push(photograph);
+        return photograph;
+    };
     try {
         const drawing: Drawing = draft.drawing;
         if (missingLine(drawing.gesture, source.stored.alpha) === "axis")
             throw new Error("The designer's draft has no line from foot to top yet");
-        const { species } = withEdits(await source.trace(drawing, signal), drawing);
+        const { species } = withEdits(await source.trace(drawing, signal, photographOf), drawing);
         return ownSpecies(JSON.stringify(species));
     } finally {
-        source.forget();
+        for (const each of [source, ...ofCap]) each.forget();
     }
 }

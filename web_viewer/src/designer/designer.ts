@@ -25,6 +25,7 @@ import {
     type Drawing,
     type Gesture,
     type PlaceOnPage,
+    sourcesOf,
     type Point,
     type Tool,
 } from "./gesture";
@@ -56,6 +57,7 @@ import { DetailsPanel, showFormProblem } from "./details_panel";
 import { Loupe } from "./loupe";
 import { AxisFrame, polylineOf, withInserted, withRemoved, type Silhouette } from "./outline";
 import { OutlineEditor, type ShownOutline } from "./outline_editor";
+import { CapPhotos } from "./cap_photos";
 import { OverPhoto, windowOf } from "./over_photo";
 import { meanColour } from "./paint";
 import { PaintPanel } from "./paint_panel";
@@ -77,40 +79,7 @@ import {
     type Trace,
 } from "./service";
 import { SpeciesFile } from "./species_file";
-
-interface ToolWords {
-    label: string;
-    sentence: string;
-    title: string;
-}
-
-const words: Readonly<Record<Tool, ToolWords>> = {
-    axis: {
-        label: "Foot to top",
-        sentence: "Draw from the foot to the top",
-        title: "The line through the middle of the stem up to the top of the cap",
-    },
-    cap: {
-        label: "Across the cap",
-        sentence: "Now across the cap",
-        title: "The line from margin to margin",
-    },
-    keep: {
-        label: "Keep",
-        sentence: "Something is missing? Draw on it",
-        title: "A stroke on a part of the mushroom that the outline leaves out",
-    },
-    drop: {
-        label: "Drop",
-        sentence: "Too much? Draw on what is no part of it",
-        title: "A stroke on something that the outline includes by mistake",
-    },
-    frame: {
-        label: "Frame",
-        sentence: "Draw a frame around the mushroom",
-        title: "What is outside of the frame is background",
-    },
-};
+import { words } from "./tool_words";
 
 /** Returns true for the JSON of a species; all else is a picture, or refused by the service. */
 function isSpeciesFile(file: Blob): boolean {
@@ -162,6 +131,10 @@ export class Designer {
         () => this.isBusy,
     );
     private readonly sources = new Sources();
+    private readonly capPhotos = new CapPhotos(this.sources, (views, said) => {
+        this.edited({ views });
+        announce(said);
+    });
     private shownSource: number | undefined;
     private photograph: Source | undefined;
     private address: string | undefined;
@@ -312,6 +285,13 @@ export class Designer {
         }
     }
 
+    /** Takes a file that was dropped on a part of the page, or pasted while it has the focus. */
+    receive(file: File, on: EventTarget | null): void {
+        const side = this.capPhotos.sideAt(on);
+        if (side) void this.capPhotos.choose(side, file);
+        else void this.open(file);
+    }
+
     /** Opens a photograph or the file of a species: one step, which undo takes back. Returns false if it cannot. */
     async open(file: Blob): Promise<boolean> {
         const opened = await this.read(file);
@@ -386,6 +366,7 @@ export class Designer {
     /** What is worked on is to be left: its draft in the library is found again when undo comes back to it. */
     private leave(): void {
         this.tracing?.abort();
+        this.capPhotos.leave();
         const left = this.sources.at(this.shownSource);
         if (left) left.link = this.library.linked;
         this.library.forget();
@@ -413,7 +394,7 @@ export class Designer {
             (button as HTMLElement).hidden =
                 !photograph.drawable &&
                 tools.some((tool) => tool === (button as HTMLElement).dataset["tool"]);
-        byId("size").hidden = !photograph.drawable;
+        for (const id of ["size", "cap-photos"]) byId(id).hidden = !photograph.drawable;
         byId("forgotten").hidden = !photograph.isForgotten;
         byId("forget").hidden = photograph.isForgotten;
         if (link) this.library.resume(link);
@@ -442,11 +423,10 @@ export class Designer {
     private forget(): void {
         clearTimeout(this.saving);
         const opened = this.sources.at(this.shownSource);
-        this.photograph?.forget();
-        if (opened?.source instanceof Photograph) {
-            if (opened.address) URL.revokeObjectURL(opened.address);
-            opened.file = opened.address = undefined;
-        }
+        const { past, future } = this.history.steps;
+        const steps = [...past, this.history.value, ...future];
+        const alike = steps.filter(({ source }) => source === this.shownSource);
+        this.sources.forget(new Set(alike.flatMap(sourcesOf)));
         this.history.push(startOfDrawing);
         void this.goTo(undefined);
         void forgetDraft();
@@ -681,7 +661,7 @@ export class Designer {
     }
 
     /** Changes the species itself: one step of undo. */
-    private edited(change: Pick<Drawing, "shape" | "details">): void {
+    private edited(change: Pick<Drawing, "shape" | "details" | "views">): void {
         this.history.push({ ...this.history.value, ...change });
         this.restored();
     }
@@ -947,8 +927,9 @@ export class Designer {
 
     /** Shows the drawing that the history is at, and traces it. */
     private restored(): void {
-        const { gesture, heightMm, form, images } = this.history.value;
+        const { gesture, views, heightMm, form, images } = this.history.value;
         this.sketch.gesture = gesture;
+        if (this.photograph?.drawable) this.capPhotos.show(views);
         byId<HTMLSelectElement>("form").value = form;
         byId<HTMLInputElement>("images").checked = images;
         byId<HTMLInputElement>("height").value = heightMm === undefined ? "" : String(heightMm);
@@ -1071,7 +1052,9 @@ export class Designer {
         this.state = "busy";
         const busy = setTimeout(() => (byId("busy").hidden = false), 120);
         try {
-            const trace = await photograph.trace(this.history.value, tracing.signal);
+            const trace = await photograph.trace(this.history.value, tracing.signal, (number) =>
+                this.sources.photograph(number),
+            );
             if (tracing.signal.aborted) return;
             this.tracing = undefined;
             this.showTrace(trace);
@@ -1160,6 +1143,7 @@ export class Designer {
     }
 
     private say(place: PlaceOnPage, detail: string): void {
+        if (place === "above" || place === "below") return this.capPhotos.say(place, detail);
         if (place === "height" || place === "template" || place === "form") {
             const line = byId(`${place}-error`);
             line.hidden = false;
@@ -1178,6 +1162,7 @@ export class Designer {
 
     private clearErrors(): void {
         byId("gesture-errors").replaceChildren();
+        this.capPhotos.clearErrors();
         for (const button of byId("tools").children) button.classList.remove("failed");
         for (const place of ["height", "template", "form"]) byId(`${place}-error`).hidden = true;
         for (const place of ["height", "form"]) byId(place).removeAttribute("aria-invalid");

@@ -1,7 +1,7 @@
 // The draft that survives a reload: the files that were opened and what was drawn on them, in the
 // browser's own database. Without one, as in some private windows, there is no draft.
 import { openDatabase } from "../browser_database";
-import type { Drawing } from "./gesture";
+import { capSides, type Drawing } from "./gesture";
 
 export interface Draft {
     drawing: Drawing;
@@ -44,6 +44,17 @@ async function act<T>(
     }
 }
 
+/** Returns a drawing without photographs of the cap whose file is lost. */
+function withFound(drawing: Drawing, files: ReadonlyMap<number, Blob>): Drawing {
+    const { views } = drawing;
+    if (!views) return drawing;
+    const found = capSides.flatMap((side) => {
+        const view = views[side];
+        return view && files.has(view.source) ? [[side, view] as const] : [];
+    });
+    return { ...drawing, views: found.length > 0 ? Object.fromEntries(found) : undefined };
+}
+
 /** Returns the draft without steps whose file is lost. */
 export async function loadDraft(): Promise<Draft | undefined> {
     const stored = await act(
@@ -61,7 +72,8 @@ export async function loadDraft(): Promise<Draft | undefined> {
     }
     written = new Map(files);
     if (stored.file) files.set(1, stored.file);
-    const numbered = (drawing: Drawing): Drawing => (stored.file ? { ...drawing, source: 1 } : drawing);
+    const numbered = (drawing: Drawing): Drawing =>
+        withFound(stored.file ? { ...drawing, source: 1 } : drawing, files);
     const has = ({ source }: Drawing): boolean => source !== undefined && files.has(source);
     const drawing = numbered(stored.drawing);
     if (!has(drawing)) return undefined;

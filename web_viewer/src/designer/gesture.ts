@@ -21,11 +21,33 @@ export interface Gesture {
     frame: Stroke;
 }
 
+/** The cap is photographed from these sides besides that of the whole mushroom. */
+export const capSides = ["above", "below"] as const;
+export type CapSide = (typeof capSides)[number];
+
+/** What is drawn on a photograph of the cap: `axis` is a line across it, `cap` a second one. */
+export interface CapSketch {
+    gesture: Gesture;
+    /** The highest point of the cap, from below where the stem is fixed; undefined for the middle. */
+    centre?: Point | undefined;
+    /** Where the stem ends on a photograph from below. */
+    stemEnd?: Point | undefined;
+}
+
+export interface CapView extends CapSketch {
+    /** Number of its photograph. */
+    source: number;
+}
+
+export type CapViews = Readonly<Partial<Record<CapSide, CapView>>>;
+
 /** Everything that a trace depends on; one step of undo. */
 export interface Drawing {
     /** Number of the photograph or species that was opened; undefined before the first and after it was forgotten. */
     source?: number | undefined;
     gesture: Gesture;
+    /** Photographs of the cap. */
+    views?: CapViews | undefined;
     /** A species, or "auto" for the one that is most alike. */
     template: string;
     /** What is looked for, or "auto" for what fits. */
@@ -154,24 +176,62 @@ export function missingLine(gesture: Gesture, cutOut: boolean): "axis" | "cap" |
     return gesture.cap.length < 2 && !cutOut ? "cap" : undefined;
 }
 
-/** The body of a trace, without the photograph it is about. */
-export interface TraceOrder {
+/** Returns true if a photograph of the cap has what the service needs: a line across the cap, or a picture
+ *  that is cut out. */
+export function isComplete({ gesture }: CapSketch, cutOut: boolean): boolean {
+    return gesture.axis.length >= 2 || (cutOut && strokeCount(gesture) === 0);
+}
+
+/** Returns the numbers of all photographs or species that a drawing names. */
+export function sourcesOf({ source, views }: Drawing): number[] {
+    const ofCap = capSides.flatMap((side) => views?.[side]?.source ?? []);
+    return source === undefined ? ofCap : [source, ...ofCap];
+}
+
+/** Names that the service gave to photographs. */
+export type PhotoNames = Readonly<{ side: string } & Partial<Record<CapSide, string>>>;
+
+interface ViewOrder {
+    photo: string;
     gesture?: Record<string, unknown>;
+    centre?: Point;
+    stem_end?: Point;
+}
+
+/** The body of a trace. */
+export interface TraceOrder {
+    views: { side: ViewOrder } & Partial<Record<CapSide, ViewOrder>>;
     template: string;
     form: string;
     images: boolean;
     height_m?: number;
 }
 
-/** Returns a drawing as the service reads it: what was not drawn is left out. */
-export function orderOf({ gesture, template, form, images, heightMm }: Drawing): TraceOrder {
+function viewOrder(photo: string, { gesture, centre, stemEnd }: CapSketch): ViewOrder {
     const { axis, cap, keep, drop } = gesture;
-    const frame = rectangle(gesture.frame);
-    const drawn = Object.entries({ axis, cap, keep, drop, frame: frame ?? [] }).filter(
+    const frame = rectangle(gesture.frame) ?? [];
+    const drawn = Object.entries({ axis, cap, keep, drop, frame }).filter(
         ([, lines]) => lines.length > 0,
     );
     return {
+        photo,
         ...(drawn.length > 0 ? { gesture: Object.fromEntries(drawn) } : {}),
+        ...(centre ? { centre } : {}),
+        ...(stemEnd ? { stem_end: stemEnd } : {}),
+    };
+}
+
+/** Returns a drawing as the service reads it: what was not drawn is left out, and so is a photograph without a name. */
+export function orderOf(
+    { gesture, views, template, form, images, heightMm }: Drawing,
+    photos: PhotoNames,
+): TraceOrder {
+    const ofCap = capSides.flatMap((side) => {
+        const [photo, view] = [photos[side], views?.[side]];
+        return photo !== undefined && view ? [[side, viewOrder(photo, view)] as const] : [];
+    });
+    return {
+        views: { side: viewOrder(photos.side, { gesture }), ...Object.fromEntries(ofCap) },
         template,
         form,
         images,
@@ -179,7 +239,7 @@ export function orderOf({ gesture, template, form, images, heightMm }: Drawing):
     };
 }
 
-export type PlaceOnPage = Tool | "photo" | "height" | "template" | "form" | "outline";
+export type PlaceOnPage = Tool | CapSide | "photo" | "height" | "template" | "form" | "outline";
 
 /** Returns what on the page a JSON pointer of the service is about, undefined if it is nothing that
  *  can be seen there. */
@@ -187,6 +247,9 @@ export function placeOf(pointer: string): PlaceOnPage | undefined {
     const tool = /^\/views\/side\/gesture\/([a-z]+)/.exec(pointer)?.[1];
     const found = tools.find((name) => name === tool);
     if (found) return found;
+    const ofCap = /^\/views\/([a-z]+)/.exec(pointer)?.[1];
+    const side = capSides.find((name) => name === ofCap);
+    if (side) return side;
     if (pointer.startsWith("/views")) return "photo";
     if (pointer.startsWith("/height_m")) return "height";
     if (pointer.startsWith("/form")) return "form";

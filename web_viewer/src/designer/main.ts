@@ -10,10 +10,10 @@ const link = sharedIn(location.hash);
 // The key of a link should not stay in the address.
 if (link) history.replaceState(null, "", location.pathname + location.search);
 void designer.resume().then(() => link && designer.openShared(link));
-acceptDropped((file) => void designer.open(file));
+acceptDropped((file, on) => designer.receive(file, on));
 addEventListener("paste", (event) => {
     const file = event.clipboardData?.files[0];
     if (!file) return;
     event.preventDefault();
-    void designer.open(file);
+    designer.receive(file, document.activeElement);
 });

@@ -14,9 +14,12 @@ import {
 } from "./gesture";
 
 export class PointTable {
-    private readonly host = byId("points");
-
-    constructor(private readonly changed: (gesture: Gesture) => void) {}
+    /** `name` begins the ids of its fields. */
+    constructor(
+        private readonly changed: (gesture: Gesture) => void,
+        private readonly host = byId("points"),
+        private readonly name = "point",
+    ) {}
 
     show(gesture: Gesture, tool: Tool, extent: Extent): void {
         const focused = document.activeElement?.id;
@@ -49,7 +52,7 @@ export class PointTable {
                 const most = (axis === 0 ? extent.width : extent.height) - 1;
                 const input = make("input", {
                     type: "number",
-                    id: `point-${line}-${index}-${axis}`,
+                    id: `${this.name}-${line}-${index}-${axis}`,
                     min: 0,
                     max: most,
                     step: 1,

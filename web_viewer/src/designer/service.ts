@@ -1,9 +1,9 @@
 // The service's part of the designer: photographs that it forgets after a while, and traces.
-import { RequestFailed, send } from "../http";
+import { asRequestFailed, RequestFailed, send } from "../http";
 import { asGrown, axisOf } from "./axis_line";
 import { withDetails } from "./details";
 import type { Silhouette } from "./outline";
-import { orderOf, type Drawing, type Extent, type Point } from "./gesture";
+import { capSides, orderOf, type CapSide, type Drawing, type Extent, type PhotoNames, type Point } from "./gesture";
 
 export interface StoredPhoto extends Extent {
     photo: string;
@@ -56,6 +56,9 @@ export interface Trace {
     species: Species;
 }
 
+/** Returns a photograph of the cap by its number. */
+export type PhotographOf = (number: number) => Promise<Photograph>;
+
 /** What is worked on: a photograph, or the file of a species. */
 export interface Source {
     /** Undefined once it was forgotten. */
@@ -67,7 +70,7 @@ export interface Source {
     readonly isForgotten: boolean;
     /** Returns the picture that all pixels are counted in. */
     picture(signal: AbortSignal): Promise<Blob>;
-    trace(drawing: Drawing, signal: AbortSignal): Promise<Trace>;
+    trace(drawing: Drawing, signal: AbortSignal, photographOf: PhotographOf): Promise<Trace>;
     /** Forgets what the service has of it. */
     forget(): void;
 }
@@ -122,27 +125,25 @@ export class Photograph implements Source {
             const text = `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}"><path fill="#f7f1e3" d="M0 0H${width}V${height}H0Z"/></svg>`;
             return new Blob([text], { type: "image/svg+xml" });
         }
-        const response = await this.whileStored(signal, () =>
+        const response = await whileStored({ side: this }, signal, () =>
             send(`v1/photos/${this.stored.photo}.jpg`, { signal }),
         );
         return response.blob();
     }
 
-    async trace(drawing: Drawing, signal: AbortSignal): Promise<Trace> {
-        const { gesture, ...order } = orderOf(drawing);
-        const key = JSON.stringify([gesture, order]);
+    async trace(drawing: Drawing, signal: AbortSignal, photographOf: PhotographOf): Promise<Trace> {
+        const numbers = capSides.map((side) => [side, String(drawing.views?.[side]?.source)]);
+        const key = JSON.stringify(orderOf(drawing, { side: "", ...Object.fromEntries(numbers) }));
         const known = this.traces.get(key);
         if (known) return known;
         if (this.isForgotten)
             throw new RequestFailed("The photograph is forgotten", "load it again to trace it anew", 0);
-        const response = await this.whileStored(signal, () =>
+        const photographs = { side: this, ...(await photographsOfCap(drawing, photographOf)) };
+        const response = await whileStored(photographs, signal, () =>
             send("v1/traces", {
                 method: "POST",
                 headers: { "Content-Type": "application/json" },
-                body: JSON.stringify({
-                    views: { side: { photo: this.stored.photo, ...(gesture ? { gesture } : {}) } },
-                    ...order,
-                }),
+                body: JSON.stringify(orderOf(drawing, namesOf(photographs))),
                 signal,
             }),
         );
@@ -162,18 +163,77 @@ export class Photograph implements Source {
         );
     }
 
-    /** Does what needs the stored copy; if the service has forgotten it, the file is sent again. */
-    private async whileStored<T>(signal: AbortSignal, act: () => Promise<T>): Promise<T> {
+    /** Sends the file again after the service has forgotten its copy. */
+    async sendAgain(signal: AbortSignal): Promise<void> {
+        if (!this.file) return;
+        this.stored = await store(this.file, signal);
+        this.report("The service had forgotten the photograph; it was sent again.");
+    }
+}
+
+type Photographs = { side: Photograph } & Partial<Record<CapSide, Photograph>>;
+
+function namesOf({ side, above, below }: Photographs): PhotoNames {
+    return {
+        side: side.stored.photo,
+        ...(above ? { above: above.stored.photo } : {}),
+        ...(below ? { below: below.stored.photo } : {}),
+    };
+}
+
+/** Returns the photographs of the cap that a drawing names.
+ *
+ *  throws  RequestFailed that names the one which cannot be had */
+async function photographsOfCap(
+    { views }: Drawing,
+    photographOf: PhotographOf,
+): Promise<Partial<Record<CapSide, Photograph>>> {
+    const found: Partial<Record<CapSide, Photograph>> = {};
+    for (const side of capSides) {
+        const view = views?.[side];
+        if (!view) continue;
+        try {
+            found[side] = await photographOf(view.source);
+        } catch (error) {
+            const { title, message, status } = asRequestFailed(error, "The photograph cannot be sent");
+            throw new RequestFailed(title, "", status, [
+                { parameter: `/views/${side}/photo`, detail: `${message}.` },
+            ]);
+        }
+    }
+    return found;
+}
+
+/** Returns the photographs that the service has forgotten, by the error that says so. */
+function forgottenOf(error: unknown, photographs: Photographs): Photograph[] {
+    if (!(error instanceof RequestFailed) || error.status !== 404) return [];
+    const { items } = error;
+    if (items.some(({ parameter }) => parameter === "/template")) return [];
+    const named = capSides.filter((side) =>
+        items.some(({ parameter }) => parameter === `/views/${side}/photo`),
+    );
+    const isOfSide = named.length < items.length || named.length === 0;
+    const ofCap = named.flatMap((side) => photographs[side] ?? []);
+    return isOfSide ? [photographs.side, ...ofCap] : ofCap;
+}
+
+/** Does what needs stored copies; if the service has forgotten some, their files are sent again. */
+async function whileStored<T>(
+    photographs: Photographs,
+    signal: AbortSignal,
+    act: () => Promise<T>,
+): Promise<T> {
+    const sent = new Set<Photograph>();
+    for (;;) {
         try {
             return await act();
         } catch (error) {
-            const forgotten = error instanceof RequestFailed && error.status === 404;
-            if (!forgotten || error.items.some(({ parameter }) => parameter === "/template"))
-                throw error;
-            if (!this.file) throw error;
-            this.stored = await store(this.file, signal);
-            this.report("The service had forgotten the photograph; it was sent again.");
-            return act();
+            const again = forgottenOf(error, photographs).filter((each) => each.file && !sent.has(each));
+            if (again.length === 0) throw error;
+            for (const photograph of again) {
+                sent.add(photograph);
+                await photograph.sendAgain(signal);
+            }
         }
     }
 }

@@ -123,15 +123,24 @@ function corners([a, b]: Stroke): Stroke {
     return [a, [b[0], a[1]], b, [a[0], b[1]]];
 }
 
+/** Returns a stroke as it is drawn, without its points. */
+export function strokeGroup(tool: Tool, line: Stroke, isActive: boolean): SVGGElement {
+    const d = tool === "frame" ? pathOf(corners(line), true) : pathOf(line);
+    return draw(
+        "g",
+        { class: `stroke ${tool}${isActive ? " active" : ""}` },
+        draw("path", { class: "casing", d }),
+        draw("path", { class: "line", d }),
+    );
+}
+
 export class Sketch {
-    private readonly element = byId<HTMLElement & SVGSVGElement>("sketch");
-    private readonly content = draw("g", { id: "sketch-content" });
+    private readonly content: SVGGElement;
     private readonly image = draw("image");
     private readonly traced = draw("g", { class: "traced" });
     private readonly strokes = draw("g", { class: "strokes" });
     private readonly unfinished = draw("g", { class: "unfinished" });
     private readonly crosshair = draw("g", { class: "crosshair" });
-    private readonly place = byId<HTMLOutputElement>("place");
     private extent: Extent = { width: 1, height: 1 };
     private gesture_: Gesture | undefined;
     private tool_: Tool = "axis";
@@ -144,8 +153,12 @@ export class Sketch {
     private readonly fingers = new Map<number, { x: number; y: number }>();
     private picking: ((place: Point | undefined) => void) | undefined;
 
-    constructor(private readonly events: SketchEvents) {
-        const { element } = this;
+    constructor(
+        private readonly events: SketchEvents,
+        private readonly element = byId<HTMLElement & SVGSVGElement>("sketch"),
+        private readonly place = byId<HTMLOutputElement>("place"),
+    ) {
+        this.content = draw("g", { id: `${element.id}-content` });
         const { content } = this;
         element.append(content);
         content.append(this.image, this.traced, this.strokes, this.unfinished, this.crosshair);
@@ -583,11 +596,9 @@ export class Sketch {
     }
 
     private drawn(tool: Tool, line: Stroke): SVGGElement {
-        const active = tool === this.tool_ ? " active" : "";
-        const group = draw("g", { class: `stroke ${tool}${active}` });
-        const d = tool === "frame" ? pathOf(corners(line), true) : pathOf(line);
-        group.append(draw("path", { class: "casing", d }), draw("path", { class: "line", d }));
-        if (!active || line.length > 24) return group;
+        const isActive = tool === this.tool_;
+        const group = strokeGroup(tool, line, isActive);
+        if (!isActive || line.length > 24) return group;
         for (const [cx, cy] of line) group.append(draw("circle", { cx, cy }));
         return group;
     }

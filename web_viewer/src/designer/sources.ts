@@ -1,7 +1,9 @@
 // What was opened in this visit, so that undo comes back to it: each step of the history names its source by number.
-import type { Drawing } from "./gesture";
+import { RequestFailed } from "../http";
+import { announce } from "../status_line";
+import { sourcesOf, type Drawing } from "./gesture";
 import type { Link } from "./library_panel";
-import type { Source } from "./service";
+import { Photograph, type Source } from "./service";
 
 export interface Opened {
     /** Undefined once it was forgotten. */
@@ -16,6 +18,8 @@ export interface Opened {
 
 export class Sources {
     private readonly opened = new Map<number, Opened>();
+    /** Photographs on their way to the service. */
+    private readonly sending = new Map<number, Promise<Photograph>>();
     private last = 0;
 
     add(opened: Opened): number {
@@ -35,9 +39,52 @@ export class Sources {
         return number === undefined ? undefined : this.opened.get(number);
     }
 
+    /** Returns a photograph that was opened; after a reload its file is sent once.
+     *
+     *  throws  RequestFailed if its file is forgotten, or if it cannot be sent */
+    async photograph(number: number): Promise<Photograph> {
+        const opened = this.at(number);
+        if (opened?.source instanceof Photograph && !opened.source.isForgotten) return opened.source;
+        if (!opened?.file)
+            throw new RequestFailed("The photograph is forgotten", "choose it again, or remove it", 0);
+        const { file } = opened;
+        const known = this.sending.get(number);
+        const sending = known ?? Photograph.upload(file, new AbortController().signal, announce);
+        this.sending.set(number, sending);
+        try {
+            const photograph = await sending;
+            opened.source = photograph;
+            return photograph;
+        } finally {
+            this.sending.delete(number);
+        }
+    }
+
+    /** Returns the address of the picture of a photograph; fails as photograph() does. */
+    async address(number: number): Promise<string> {
+        const photograph = await this.photograph(number);
+        const known = this.at(number)?.address;
+        if (known) return known;
+        const address = URL.createObjectURL(await photograph.picture(new AbortController().signal));
+        const opened = this.at(number);
+        if (opened) opened.address ??= address;
+        return opened?.address ?? address;
+    }
+
+    /** Forgets photographs, here and at the service; what was made of them stays. */
+    forget(numbers: Iterable<number>): void {
+        for (const number of numbers) {
+            const opened = this.at(number);
+            if (!opened || (opened.source && !(opened.source instanceof Photograph))) continue;
+            opened.source?.forget();
+            if (opened.address) URL.revokeObjectURL(opened.address);
+            opened.file = opened.address = undefined;
+        }
+    }
+
     /** Drops what no step names any more. */
     prune(steps: readonly Drawing[]): void {
-        const named = new Set(steps.map(({ source }) => source));
+        const named = new Set(steps.flatMap(sourcesOf));
         for (const [number, { address }] of this.opened) {
             if (named.has(number)) continue;
             if (address) URL.revokeObjectURL(address);
@@ -48,9 +95,9 @@ export class Sources {
     /** Returns the files that steps name, by number. */
     files(steps: readonly Drawing[]): Map<number, Blob> {
         const files = new Map<number, Blob>();
-        for (const { source } of steps) {
-            const file = this.at(source)?.file;
-            if (source !== undefined && file) files.set(source, file);
+        for (const number of steps.flatMap(sourcesOf)) {
+            const file = this.at(number)?.file;
+            if (file) files.set(number, file);
         }
         return files;
     }
