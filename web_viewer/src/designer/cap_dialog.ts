@@ -73,8 +73,8 @@ const wordsOf: Readonly<Record<CapSide, CapWords>> = {
 };
 
 const hints: Readonly<Record<CapSide, string>> = {
-    above: "One line across the cap is enough. All of the cap has to be on the photograph.",
-    below: "One line across the cap is enough. If the stem hides a part of the lower face, say where it is fixed and where it ends.",
+    above: "All of the cap has to be on the photograph.",
+    below: "If the stem hides a part of the lower face, say where it is fixed and where it ends.",
 };
 
 export interface OpenedPhoto {
@@ -167,9 +167,10 @@ export class CapDialog {
             button.hidden = !text[tool].label;
         }
         byId("cap-title").textContent = `The cap from ${side}`;
-        byId("cap-hint").textContent = stored.alpha
+        const needed = stored.alpha
             ? "It is cut out already: it needs no line."
-            : hints[side];
+            : "One line across the cap is enough.";
+        byId("cap-hint").textContent = `${needed} ${hints[side]}`;
         this.say("");
         if (!this.dialog.open) this.dialog.showModal();
         this.tool = undefined;

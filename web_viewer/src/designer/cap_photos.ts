@@ -19,6 +19,7 @@ import type { Sources } from "./sources";
 
 interface Row {
     item: HTMLElement;
+    use: HTMLElement;
     picture: SVGSVGElement;
     choose: HTMLButtonElement;
     change: HTMLButtonElement;
@@ -59,8 +60,8 @@ export class CapPhotos {
         this.views = views ?? {};
         for (const side of capSides) {
             const view = this.views[side];
-            const { choose, change, remove } = this.rows[side];
-            choose.hidden = !!view;
+            const { use, choose, change, remove } = this.rows[side];
+            use.hidden = choose.hidden = !!view;
             change.hidden = remove.hidden = !view;
             void this.showPicture(side, view);
         }
@@ -168,12 +169,12 @@ export class CapPhotos {
         const [choose, change, remove] = [button("Choose…"), button("Change"), button("Remove")];
         const picture = draw("svg", { class: "cap-picture", "aria-hidden": "true" });
         const error = make("p", { class: "validation-error", role: "alert", hidden: true });
-        const title = make("span", { class: "cap-name" }, make("b", {}, name), make("small", {}, uses[side]));
+        const use = make("small", {}, uses[side]);
         const item = make(
             "li",
             { "data-view": side },
             picture,
-            title,
+            make("span", { class: "cap-name" }, make("b", {}, name), " ", use),
             make("span", { class: "row" }, choose, change, remove, input),
             error,
         );
@@ -185,7 +186,7 @@ export class CapPhotos {
             input.value = "";
             if (chosen) void this.choose(side, chosen);
         });
-        return { item, picture, choose, change, remove, error, input };
+        return { item, use, picture, choose, change, remove, error, input };
     }
 
     /** Shows a photograph small, with its lines. */
