@@ -24,26 +24,43 @@ const cap = [
     [708, 92],
 ];
 
+/** On the photograph from below: a line across the cap, where the stem is fixed and where it ends. */
+const capBelow = [
+    [190, 210],
+    [600, 150],
+];
+const stemBelow = [
+    [405, 200],
+    [430, 345],
+];
+
 let browser;
 let shared;
 let folder;
 let photograph;
 let cutOut;
+let fromAbove;
+let fromBelow;
 
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    const picture = async (background) => {
-        const query = `width=800&height=800&view=front&background=${background}`;
+    const picture = async (view, background) => {
+        const query = `width=800&height=800&view=${view}&background=${background}`;
         const response = await fetch(`${base}/v1/mushrooms/russula_emetica.png?${query}`);
         assert.equal(response.status, 200);
         return {
-            name: "russula.png",
+            name: `russula_${view}.png`,
             mimeType: "image/png",
             buffer: Buffer.from(await response.arrayBuffer()),
         };
     };
-    [photograph, cutOut] = await Promise.all([picture("grey"), picture("transparent")]);
+    [photograph, cutOut, fromAbove, fromBelow] = await Promise.all([
+        picture("front", "grey"),
+        picture("front", "transparent"),
+        picture("top", "grey"),
+        picture("below", "grey"),
+    ]);
 });
 
 after(() => browser?.close());
@@ -86,22 +103,36 @@ async function give(page, file = photograph) {
 }
 
 /** Returns a place of the photograph in pixels of the window. */
-function onScreen(page, point) {
-    return page.evaluate(([x, y]) => {
-        const matrix = document.getElementById("sketch").getScreenCTM();
-        const place = new DOMPoint(x, y).matrixTransform(matrix);
+function onScreen(page, point, sketch = "#sketch") {
+    return page.locator(sketch).evaluate((element, [x, y]) => {
+        const place = new DOMPoint(x, y).matrixTransform(element.getScreenCTM());
         return { x: place.x, y: place.y };
     }, point);
 }
 
-async function stroke(page, from, to) {
-    await page.locator("#sketch").scrollIntoViewIfNeeded();
-    const [a, b] = [await onScreen(page, from), await onScreen(page, to)];
+async function stroke(page, from, to, sketch = "#sketch") {
+    await page.locator(sketch).scrollIntoViewIfNeeded();
+    const [a, b] = [await onScreen(page, from, sketch), await onScreen(page, to, sketch)];
     await page.mouse.move(a.x, a.y);
     await page.mouse.down();
     await page.mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2);
     await page.mouse.move(b.x, b.y);
     await page.mouse.up();
+}
+
+/** Moves the crosshair of the focused photograph by keys. */
+async function moveCrosshair(page, [x, y], place = "#place") {
+    const [fromX, fromY] = (await page.locator(place).textContent()).split(", ").map(Number);
+    for (const [by, keys] of [
+        [x - fromX, ["ArrowLeft", "ArrowRight"]],
+        [y - fromY, ["ArrowUp", "ArrowDown"]],
+    ]) {
+        const key = keys[by > 0 ? 1 : 0];
+        const far = Math.abs(by);
+        for (let n = 0; n < Math.floor(far / 10); ++n) await page.keyboard.press(`Shift+${key}`);
+        for (let n = 0; n < far % 10; ++n) await page.keyboard.press(key);
+    }
+    assert.equal(await page.locator(place).textContent(), `${x}, ${y}`);
 }
 
 async function drawLines(page) {
@@ -259,20 +290,7 @@ test("the keyboard alone draws both lines, and the table has the same points", a
     await page.locator("#sentence", { hasText: "Draw from the foot to the top" }).waitFor();
     await at(page, "ready");
     assert.equal(await page.evaluate(() => document.activeElement.id), "sketch");
-    const go = async ([x, y]) => {
-        const [fromX, fromY] = (await page.locator("#place").textContent()).split(", ").map(Number);
-        for (const [by, keys] of [
-            [x - fromX, ["ArrowLeft", "ArrowRight"]],
-            [y - fromY, ["ArrowUp", "ArrowDown"]],
-        ]) {
-            const key = keys[by > 0 ? 1 : 0];
-            const far = Math.abs(by);
-            for (let n = 0; n < Math.floor(far / 10); ++n)
-                await page.keyboard.press(`Shift+${key}`);
-            for (let n = 0; n < far % 10; ++n) await page.keyboard.press(key);
-        }
-        assert.equal(await page.locator("#place").textContent(), `${x}, ${y}`);
-    };
+    const go = (place) => moveCrosshair(page, place);
     await go(foot);
     await page.keyboard.press("Enter");
     await go([420, 500]);
@@ -333,6 +351,13 @@ test("fingers alone draw, on targets that they can hit", async () => {
                 .map((button) => button.textContent),
         );
     assert.deepEqual(small, []);
+    await page.locator("#cap-file-above").setInputFiles(fromAbove);
+    await page.locator("#cap-dialog").waitFor();
+    const smallInDialog = await page
+        .locator("#cap-dialog button:visible")
+        .evaluateAll((buttons) => buttons.map((button) => button.getBoundingClientRect().height));
+    assert.ok(Math.min(...smallInDialog) >= 44, `${smallInDialog}`);
+    await page.locator("#cap-cancel").tap();
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.equal(wide, 0, "nothing is wider than the window");
     await page.screenshot({ path: path.join(folder, "designer_800.png"), fullPage: true });
@@ -996,6 +1021,129 @@ test("a forgotten photograph is sent again, and one that is cut out needs no lin
     assert.equal(traces(log), before + 1);
     assert.equal(await strokes(page, "axis"), 0);
     assert.equal(await page.locator("#sketch .outline").count(), 1);
+});
+
+/** Does what makes a trace; returns the views that were requested and the traced model. */
+async function traced(page, act) {
+    const [response] = await Promise.all([
+        page.waitForResponse((each) => each.url().endsWith("/v1/traces") && each.status() === 200),
+        act(),
+    ]);
+    const { species, stage } = await response.json();
+    await at(page, "ready");
+    return { views: response.request().postDataJSON().views, model: species.stages[stage].model };
+}
+
+test("a photograph from above gives the skin of the cap, and a reload keeps it", async () => {
+    const { page, log } = await open({ width: 1400, height: 880 });
+    const alone = await traced(page, () => give(page, cutOut));
+    assert.deepEqual(Object.keys(alone.views), ["side"]);
+    await page.locator("#cap-file-above").setInputFiles(fromAbove);
+    await page.locator("#cap-dialog").waitFor();
+    const use = page.locator("#cap-use");
+    assert.equal(await use.isDisabled(), true, "a line is missing");
+    await stroke(page, [50, 400], [750, 400], "#cap-sketch");
+    assert.equal(await use.isDisabled(), false);
+    await page.locator('#cap-tools [data-tool="centre"]').click();
+    const middle = await onScreen(page, [390, 380], "#cap-sketch");
+    await page.mouse.click(middle.x, middle.y);
+    await page.mouse.move(middle.x, middle.y);
+    await stroke(page, [390, 380], [410, 400], "#cap-sketch");
+    await page.screenshot({ path: path.join(folder, "designer_cap_above.png") });
+    const { views, model } = await traced(page, () => use.click());
+    expectNear(views.above.centre, [410, 400], 2);
+    expectNear(views.above.gesture.axis.flat(), [50, 400, 750, 400], 2);
+    assert.ok(model.surface.cap.image);
+    assert.notDeepEqual(model.surface.cap.image, alone.model.surface.cap.image);
+    const before = traces(log);
+    const picture = page.locator('#cap-rows [data-view="above"] image');
+    await page.locator("#undo").click();
+    await at(page, "ready");
+    assert.equal(await picture.count(), 0);
+    await page.locator("#redo").click();
+    await picture.waitFor({ state: "attached" });
+    await at(page, "ready");
+    assert.equal(traces(log), before, "what was traced is at hand again");
+    expectNoProblems(log);
+    // The service forgets it: it is sent again.
+    const gone = await fetch(`${base}/v1/photos/${views.above.photo}.jpg`, { method: "DELETE" });
+    assert.equal(gone.status, 204);
+    const again = await traced(page, async () => {
+        await page.locator("#height").fill("70");
+        await page.locator("#height").press("Enter");
+    });
+    assert.notEqual(again.views.above.photo, views.above.photo);
+    await page.waitForTimeout(600);
+    const reloaded = await traced(page, () => page.reload());
+    assert.deepEqual(reloaded.views.above.gesture, views.above.gesture);
+    assert.deepEqual(reloaded.views.above.centre, views.above.centre);
+    await picture.waitFor({ state: "attached" });
+});
+
+test("the keyboard alone draws on a photograph from below, and its errors stand at its row", async () => {
+    const { page } = await open();
+    await give(page, cutOut);
+    const row = page.locator('#cap-rows [data-view="below"]');
+    page.once("filechooser", (chooser) => chooser.setFiles(fromBelow));
+    await row.locator("button", { hasText: "Choose" }).press("Enter");
+    await page.locator("#cap-dialog").waitFor();
+    const focused = () => page.evaluate(() => document.activeElement.getAttribute("aria-label"));
+    assert.equal(await focused(), "Photograph of the cap to draw on");
+    const press = (key) => page.keyboard.press(key);
+    const set = async (place) => {
+        await moveCrosshair(page, place, "#cap-place");
+        await press("Enter");
+    };
+    // In a corner is no cap.
+    await set([20, 760]);
+    await set([60, 780]);
+    await press("Escape");
+    await press("Escape");
+    await press("Escape");
+    assert.equal(await page.locator("#cap-dialog").isVisible(), true, "Escape discards nothing");
+    await set([20, 760]);
+    await set([60, 780]);
+    await press("Enter");
+    await page.locator("#cap-use").press("Enter");
+    await at(page, "failed");
+    assert.match(await row.locator(".validation-error").textContent(), /\S+ \S+/);
+    assert.equal(await page.locator("#problem").isVisible(), false);
+    assert.equal(await focused(), "Change from below");
+    await press("Enter");
+    await page.locator("#cap-dialog").waitFor();
+    await press("Control+z");
+    await page.locator('#cap-tools [data-tool="axis"]').press("Enter");
+    await page.locator("#cap-clear").press("Enter");
+    await page.locator("#cap-sketch").focus();
+    for (const place of capBelow) await set(place);
+    await press("Enter");
+    await page.locator('#cap-tools [data-tool="frame"]').press("Enter");
+    await page.locator("#cap-sketch").focus();
+    for (const corner of [
+        [150, 20],
+        [640, 345],
+    ])
+        await set(corner);
+    for (const [tool, place] of [
+        ["centre", stemBelow[0]],
+        ["stemEnd", stemBelow[1]],
+    ]) {
+        await page.locator(`#cap-tools [data-tool="${tool}"]`).press("Enter");
+        await set(place);
+    }
+    assert.match(await focused(), /^End of the stem, at /);
+    await press("ArrowLeft");
+    const [x, y] = stemBelow[1];
+    await page.screenshot({ path: path.join(folder, "designer_cap_below.png") });
+    const { views, model } = await traced(page, () => page.locator("#cap-use").press("Enter"));
+    assert.deepEqual(views.below.gesture, { axis: capBelow, frame: [150, 20, 490, 325] });
+    assert.deepEqual(views.below.centre, stemBelow[0]);
+    assert.deepEqual(views.below.stem_end, [x - 1, y]);
+    assert.ok(model.surface.hymenium.image);
+    assert.equal(await row.locator(".validation-error").isVisible(), false);
+    await row.locator("button", { hasText: "Remove" }).press("Enter");
+    await at(page, "ready");
+    assert.equal(await focused(), "Choose… from below");
 });
 
 test("the viewer leads to the designer and back", async () => {

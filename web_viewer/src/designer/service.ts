@@ -209,12 +209,10 @@ function forgottenOf(error: unknown, photographs: Photographs): Photograph[] {
     if (!(error instanceof RequestFailed) || error.status !== 404) return [];
     const { items } = error;
     if (items.some(({ parameter }) => parameter === "/template")) return [];
-    const named = capSides.filter((side) =>
-        items.some(({ parameter }) => parameter === `/views/${side}/photo`),
-    );
-    const isOfSide = named.length < items.length || named.length === 0;
-    const ofCap = named.flatMap((side) => photographs[side] ?? []);
-    return isOfSide ? [photographs.side, ...ofCap] : ofCap;
+    const isGone = (side: string): boolean =>
+        items.some(({ parameter }) => parameter === `/views/${side}/photo`);
+    const ofCap = capSides.filter(isGone).flatMap((side) => photographs[side] ?? []);
+    return isGone("side") || ofCap.length === 0 ? [photographs.side, ...ofCap] : ofCap;
 }
 
 /** Does what needs stored copies; if the service has forgotten some, their files are sent again. */
