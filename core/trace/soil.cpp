@@ -134,7 +134,7 @@ Mask without_soil(const Picture& picture, const Mask& mask, const Stroke& axis) 
             rest.inside[rest.index(x, y)] = 0;
     });
     // Grains and needles of another colour lie in the soil.
-    const Mask whole = opened(rest, std::clamp(static_cast<int>(0.1 * stem_width), 1, 3));
+    const Mask whole = opened(rest, std::clamp(static_cast<int>(0.1 * stem_width), 1, 6));
     each_pixel(mask, [&](int x, int y, const glm::dvec2& at) {
         if (sliced.of(at) < top) rest.inside[rest.index(x, y)] = whole.inside[whole.index(x, y)];
     });

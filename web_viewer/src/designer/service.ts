@@ -95,7 +95,13 @@ export class Photograph implements Source {
         signal: AbortSignal,
         report: (text: string) => void,
     ): Promise<Photograph> {
-        return new Photograph(file, report, await store(file, signal));
+        try {
+            return new Photograph(file, report, await store(file, signal));
+        } catch (error) {
+            if (!(error instanceof RequestFailed) || error.status !== 415) throw error;
+            const choose = "choose a JPEG, PNG or WebP file, or the JSON of a species";
+            throw new RequestFailed("This is no photograph", choose, 415);
+        }
     }
 
     get drawable(): boolean {
