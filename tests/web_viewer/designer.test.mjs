@@ -179,7 +179,7 @@ test("two lines on a photograph make a species with a model", async () => {
     const text = { name: "notes.txt", mimeType: "text/plain", buffer: Buffer.from("no picture") };
     await page.locator("#file").setInputFiles(text);
     await at(page, "failed");
-    assert.ok(await page.locator("#welcome-error").textContent());
+    assert.match(await page.locator("#welcome-error").textContent(), /This is no photograph: choose a JPEG/);
     await open({ width: 1400, height: 880 });
     await give(page);
     assert.equal(await sentence(page), "Draw from the foot to the top");
