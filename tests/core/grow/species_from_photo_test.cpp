@@ -73,7 +73,7 @@ TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
     EXPECT_TRUE(found.whole.certificate.simple);
     const Stage& photographed = found.whole.species.stages[found.whole.stage];
     EXPECT_NEAR(height_of(photographed), 0.25, 0.01);
-    // Who asks for no age gets the photographed one.
+    // Without a stated age it grows as it was photographed.
     EXPECT_NEAR(photographed.age, MushroomParams{}.age, 1e-9);
     // In pixels of the photograph: from the foot to the apex.
     EXPECT_NEAR(found.traced.left.front().y, bolete().gesture.axis.front().y, 40.0);

@@ -84,8 +84,7 @@ TEST(MoveAges, KeepsTheOrderAndTheSharesOfTime) {
                 EXPECT_NEAR((1.0 - to) / 0.4, (1.0 - from) / (1.0 - before), 3e-4);
             }
         }
-        for (std::size_t i = 0; i < own.stages.size(); ++i)
-            moved.stages[i].age = own.stages[i].age;
+        for (std::size_t i = 0; i < own.stages.size(); ++i) moved.stages[i].age = own.stages[i].age;
         EXPECT_EQ(moved, own);
     }
 }
