@@ -34,7 +34,7 @@ export class CapMarks {
         private readonly events: CapMarksEvents,
     ) {
         const { element } = this;
-        element.append(this.line, ...marks.map((mark) => this.handles[mark]));
+        element.append(this.line);
         element.addEventListener("pointermove", (event) => this.move(event));
         element.addEventListener("pointerup", () => this.letGo());
         element.addEventListener("pointercancel", () => this.giveUp());
@@ -88,8 +88,11 @@ export class CapMarks {
         for (const mark of marks) {
             const handle = this.handles[mark];
             const place = this.places[mark];
-            handle.style.display = place ? "" : "none";
-            if (!place) continue;
+            if (!place) {
+                handle.remove();
+                continue;
+            }
+            if (!handle.isConnected) this.element.append(handle);
             handle.setAttribute("transform", `translate(${place[0]} ${place[1]})`);
             handle.setAttribute("aria-label", this.labelOf(mark, place));
         }
