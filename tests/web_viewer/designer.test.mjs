@@ -1035,7 +1035,7 @@ async function traced(page, act) {
 }
 
 test("a photograph from above gives the skin of the cap, and a reload keeps it", async () => {
-    const { page, log } = await open({ width: 1400, height: 880 });
+    const { page, log } = await open({ width: 800, height: 800 });
     const alone = await traced(page, () => give(page, cutOut));
     assert.deepEqual(Object.keys(alone.views), ["side"]);
     await page.locator("#cap-file-above").setInputFiles(fromAbove);
