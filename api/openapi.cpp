@@ -252,8 +252,8 @@ std::set<int> problems_of(const Route& route, bool is_signed, bool has_library) 
 /// Returns true if ranges of the body may be requested: for files that are not compressed on
 /// demand. A range of a response to POST is never sent.
 bool has_ranges(const Route& route) {
-    return is_get(route) && route.kind != RouteKind::upload && route.kind != RouteKind::record &&
-           !compressible(route.media_type);
+    return is_get(route) && route.kind != RouteKind::upload &&
+           (route.kind != RouteKind::record || route.has_etag) && !compressible(route.media_type);
 }
 
 Value success_headers(const Route& route, bool is_signed) {

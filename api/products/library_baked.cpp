@@ -37,14 +37,30 @@ Response grown(const LibraryCall& call, std::vector<AtlasGuest> guests, const st
     return std::get<Response>(std::move(plan));
 }
 
+/// A version that an address names.
+struct NamedVersion {
+    LibraryName name;
+    bool is_newest = false;  ///< by no number: tomorrow it may be another one
+};
+
 /// Returns the version that an address names, or the response that says why there is none.
-std::variant<LibraryName, Response> published(const LibraryCall& call) {
+std::variant<NamedVersion, Response> published(const LibraryCall& call) {
     ValidationErrors errors;
     const LibraryName name = read_species(call.captured[0], true, errors);
     if (!errors.empty()) return call.problem(errors);
     const Library::Found found = call.library.find(text_of(name));
     if (found.status != 200) return not_found(call.responses(), call.request, found);
-    return found.name;
+    return NamedVersion{found.name, name.number == 0};
+}
+
+/// Lets caches have what never changes, and of the newest version says which it is.
+///
+/// path  of the version
+void set_freshness(const LibraryCall& call, const NamedVersion& version, std::string_view path,
+                   Response& response) {
+    set_header(response, "Cache-Control", version.is_newest ? "no-cache" : cache_control(false));
+    if (version.is_newest)
+        set_header(response, "Content-Location", call.responses().link(std::string(path)));
 }
 
 }  // namespace
@@ -88,7 +104,8 @@ Plan plan_publication(RouteCall& call) {
 Response list_baked(LibraryCall& call) {
     auto found = published(call);
     if (Response* const refused = std::get_if<Response>(&found)) return std::move(*refused);
-    const LibraryName& version = std::get<LibraryName>(found);
+    const NamedVersion& named = std::get<NamedVersion>(found);
+    const LibraryName& version = named.name;
     Value files = Value::array();
     for (const Blob& file : call.records.files(version.owner, version.name, version.number))
         files.push(Value::object()
@@ -96,17 +113,17 @@ Response list_baked(LibraryCall& call) {
                        .set("sha256", hex_of(file.sha256))
                        .set("url", call.responses().link(baked_path(version, file.place))));
     Response response = private_json(Value::object().set("files", std::move(files)));
-    set_header(response, "Cache-Control", cache_control(false));
+    set_freshness(call, named, "/v1/library/" + text_of(version) + "/baked.json", response);
     return response;
 }
 
 Response get_baked(LibraryCall& call) {
     auto found = published(call);
     if (Response* const refused = std::get_if<Response>(&found)) return std::move(*refused);
-    const LibraryName& version = std::get<LibraryName>(found);
+    const NamedVersion& named = std::get<NamedVersion>(found);
+    const LibraryName& version = named.name;
     const std::string name = call.captured[1] + ".glb";
-    const std::optional<Blob> file =
-        call.records.file(version.owner, version.name, version.number, name);
+    std::optional<Blob> file = call.records.file(version.owner, version.name, version.number, name);
     if (!file)
         return call.problem(404, "of " + in_quotes(text_of(version)) + " no " + in_quotes(name) +
                                      " is baked; " +
@@ -117,16 +134,18 @@ Response get_baked(LibraryCall& call) {
     response.headers = {
         {"Content-Type", file->media},
         {"ETag", etag},
-        {"Cache-Control", cache_control(false)},
         {"Content-Disposition", "inline; filename=\"" + version.owner + '-' + version.name + '-' +
                                     std::to_string(version.number) + '-' + name + '"'}};
+    set_freshness(call, named, baked_path(version, name), response);
     const Conditions conditions(call.request);
     const std::vector<std::string> etags = {etag};
     if (conditions.match_fails(etags))
         return call.responses().precondition_failed(call.request, "If-Match", etags);
     if (conditions.unchanged(etags) || conditions.none_match_any())
         return call.responses().not_modified(call.request, std::move(response), etag);
-    response.body = {Slice(std::make_shared<const Bytes>(file->bytes))};
+    response.body = {Slice(std::make_shared<const Bytes>(std::move(file->bytes)))};
+    call.responses().select_range(call.request, response);
+    if (response.status == 206) set_header(response, "Accept-Ranges", "bytes");
     return response;
 }
 
