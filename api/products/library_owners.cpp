@@ -1,6 +1,7 @@
 // What owners have: quota, tokens, and shares of drafts.
 #include <utility>
 
+#include "api/library/species_text.h"
 #include "api/library/tokens.h"
 #include "api/products/library_handlers.h"
 #include "core/params/messages.h"
@@ -108,9 +109,12 @@ Response list_tokens(LibraryCall& call) {
 Response create_token(LibraryCall& call) {
     ValidationErrors errors;
     const auto order = read_order<TokenOrder>(call, errors);
+    std::vector<Problem> deceptive;
+    refuse_deceptive_texts(Value(order.label.view()), "/label", deceptive);
+    errors.add(400, deceptive);
     if (!errors.empty()) return call.problem(errors);
     const Secret secret = new_secret(token_prefix);
-    Token token = stored_token(secret, call.caller.owner, order.label.string(), order.scope,
+    Token token = stored_token(secret, call.caller.owner, composed(order.label.view()), order.scope,
                                call.library.now());
     if (order.expires_s) token.expires = token.created + *order.expires_s;
     const WriteResult result = call.records.add_token(token);
