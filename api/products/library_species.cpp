@@ -360,6 +360,13 @@ Response publish_species(LibraryCall& call) {
     }
     const Written written = call.records.publish(name.owner, name.name, draft->content.hash,
                                                  publication, call.library.now());
+    if (written.result == WriteResult::stale && publication.number != 0) {
+        const std::optional<StoredDocument> now = call.records.document(name.owner, name.name);
+        if (now && now->newest >= publication.number)
+            return call.problem(409, "version " + std::to_string(publication.number) +
+                                         " was published while the files of this one were made; "
+                                         "publish again");
+    }
     if (written.result != WriteResult::done) return refused_write(call, written.result, name);
     call.library.refresh();
     Response response = written_response(call, name, written, 201);
