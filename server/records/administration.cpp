@@ -1,5 +1,6 @@
 #include "server/records/administration.h"
 
+#include <filesystem>
 #include <memory>
 
 #include "api/library/names.h"
@@ -24,6 +25,13 @@ std::string line_of(const api::Owner& owner) {
            std::to_string(owner.max_documents) + " documents, " + std::to_string(owner.used_bytes) +
            " of " + std::to_string(owner.max_bytes) + " bytes" +
            (owner.is_disabled ? ", disabled\n" : "\n");
+}
+
+/// Requires that a library exists where a command does not begin one: a mistyped path would make an empty one.
+void require_existing(const std::string& library) {
+    if (!is_postgres_address(library) && !std::filesystem::exists(library))
+        throw InvalidInput("--library", "there is no file " + in_quotes(library) +
+                                            "; 'sporeprint library owner add' begins one");
 }
 
 std::string token_lines(const std::string& owner, const std::string& token) {
@@ -61,6 +69,7 @@ std::string administer(const LibraryCommand& command, const std::string& library
         back_up_sqlite_records(library, command.file);
         return "Copied to " + command.file + '\n';
     }
+    if (command.verb != "owner-add") require_existing(library);
     const std::unique_ptr<api::Records> records = open_records(library);
     if (command.verb == "copy") {
         const Copied copied = copy_records(*records, *open_records(command.to), now);

@@ -516,6 +516,18 @@ TEST_P(LibraryRoutes, BakedFilesAreTheBytesOfTheDay) {
                   {},
                   "test-2"};
     EXPECT_EQ(handle(*service_, again).status, 304);
+    Request part{"GET", lod3, {{"Range", "bytes=0-3"}}, {}, "test-3"};
+    EXPECT_EQ(handle(*service_, part).status, 206);
+    EXPECT_EQ(text_of(handle(*service_, part)), "glTF");
+    // Without a number another version may be meant tomorrow.
+    EXPECT_NE(header_of(ask("GET", lod3), "Cache-Control").find("public"), std::string::npos);
+    EXPECT_EQ(header_of(ask("GET", lod3), "Content-Location"), "");
+    for (const std::string file : {"/baked/3.glb", "/baked.json"}) {
+        const Response newest = ask("GET", path + file);
+        EXPECT_EQ(newest.status, 200);
+        EXPECT_EQ(header_of(newest, "Cache-Control"), "no-cache");
+        EXPECT_EQ(header_of(newest, "Content-Location"), path + "@1" + file);
+    }
     EXPECT_EQ(ask("GET", path + "@1/baked/0.glb").status, 404);
     EXPECT_EQ(ask("GET", path + "@1/baked/-3.glb").status, 404);
     EXPECT_EQ(ask("GET", path + "@2/baked/3.glb").status, 404);
@@ -597,6 +609,8 @@ TEST_P(LibraryRoutes, TokensAreMadeAndRevokedByTokens) {
     const std::string text = json_of(made).find("token")->as_string();
     EXPECT_EQ(ask("GET", "/v1/library/quota", text).status, 200);
     EXPECT_EQ(json_of(ask("GET", "/v1/library/quota", text)).find("owner")->as_string(), "kaja");
+    EXPECT_EQ(ask("POST", "/v1/tokens", admin, R"({"label":"\u202eevil","scope":"read"})").status,
+              400);
     const Response listed = ask("GET", "/v1/tokens", admin);
     EXPECT_EQ(json_of(listed).find("tokens")->items().size(), 4U);
     EXPECT_EQ(text_of(listed).find(text), std::string::npos) << "secrets are shown once";
@@ -750,6 +764,14 @@ TEST_P(LibraryRoutes, OperatorsAddAndLimitOwners) {
     command.verb = "owner-list";
     EXPECT_NE(run(command).find("kaja: 0 of 200 documents"), std::string::npos);
     EXPECT_FALSE(first_token(library_->records(), now_)) << "there are owners";
+    // A mistyped path makes no empty library.
+    const std::filesystem::path mistyped =
+        std::filesystem::temp_directory_path() / "no_such_library.db";
+    for (const char* const verb : {"owner-list", "copy", "token"}) {
+        command.verb = verb;
+        EXPECT_THROW(static_cast<void>(administer(command, mistyped.string(), now_)), InvalidInput);
+    }
+    EXPECT_FALSE(std::filesystem::exists(mistyped));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LibraryRoutes, testing::ValuesIn(test::backends),
