@@ -84,18 +84,14 @@ class Rim {
         glm::dvec2 sum(0.0);
         double xx = 0.0, xy = 0.0, yy = 0.0;
         const auto count = static_cast<double>(std::max<std::size_t>(mask.area(), 1));
-        for (int y = 0; y < mask.height; ++y)
-            for (int x = 0; x < mask.width; ++x)
-                if (mask.at(x, y)) sum += glm::dvec2(x + 0.5, y + 0.5);
+        each_pixel(mask, [&](int, int, const glm::dvec2& at) { sum += at; });
         middle_ = sum / count;
-        for (int y = 0; y < mask.height; ++y)
-            for (int x = 0; x < mask.width; ++x) {
-                if (!mask.at(x, y)) continue;
-                const glm::dvec2 away = glm::dvec2(x + 0.5, y + 0.5) - middle_;
-                xx += away.x * away.x / count;
-                xy += away.x * away.y / count;
-                yy += away.y * away.y / count;
-            }
+        each_pixel(mask, [&](int, int, const glm::dvec2& at) {
+            const glm::dvec2 away = at - middle_;
+            xx += away.x * away.x / count;
+            xy += away.x * away.y / count;
+            yy += away.y * away.y / count;
+        });
         // The second moments of an ellipse are a quarter of the squares of its half axes.
         const double root = std::sqrt(std::max(xx * yy - xy * xy, 0.0));
         const double scale = 2.0 / std::sqrt(std::max(xx + yy + 2.0 * root, 1e-9));
@@ -153,12 +149,7 @@ class Rim {
             const glm::dvec2 way = to_ellipse_ * glm::dvec2(turn.cosine, turn.sine);
             const double step = 1.0 / std::max(glm::length(way), 1.0);
             double reach = farthest;
-            const auto is_inside = [&] {
-                const glm::dvec2 at = middle_ + reach * way;
-                return mask.at(static_cast<int>(std::floor(at.x)),
-                               static_cast<int>(std::floor(at.y)));
-            };
-            while (reach > step && !is_inside()) reach -= step;
+            while (reach > step && !mask.at(middle_ + reach * way)) reach -= step;
             seen[i] = reach;
         }
         // A notch or a blade of grass moves no skin; a wave of the margin does.
@@ -236,12 +227,7 @@ double stem_radius(const Mask& mask, const glm::dvec2& from, const glm::dvec2& t
         double width = 0.0;
         for (const double side : {-1.0, 1.0}) {
             double reach = 0.0;
-            const auto is_inside = [&] {
-                const glm::dvec2 at = middle + side * reach * across;
-                return mask.at(static_cast<int>(std::floor(at.x)),
-                               static_cast<int>(std::floor(at.y)));
-            };
-            while (is_inside()) reach += 1.0;
+            while (mask.at(middle + side * reach * across)) reach += 1.0;
             width += reach;
         }
         radii[static_cast<std::size_t>(i)] = 0.5 * width;
@@ -266,10 +252,9 @@ LowerFace lower_face(const FaceView& view, double stem_share) {
     const double seen = stem_radius(view.mask, centre, *view.stem_end);
     found.stem = stem_of(seen);
     Mask beside = view.mask;
-    for (int y = 0; y < beside.height; ++y)
-        for (int x = 0; x < beside.width; ++x)
-            if (found.stem.hides(glm::dvec2(x + 0.5, y + 0.5)))
-                beside.inside[beside.index(x, y)] = 0;
+    each_pixel(view.mask, [&](int x, int y, const glm::dvec2& at) {
+        if (found.stem.hides(at)) beside.inside[beside.index(x, y)] = 0;
+    });
     beside = largest_part(beside);
     if (beside.area() == 0) return found;
     found.rim = Rim(hull_of(beside));

@@ -42,7 +42,8 @@ struct FaceShown {
 ///
 /// The margin is a circle that the camera, somewhat askew, sees as an ellipse: that of the mask's second
 /// moments. Each direction reaches as far as the mask does, and what lies higher than the margin moves with the
-/// centre as far as it is higher. A stem whose end is known is left out of the mask. What is not of the commonest hue (warts, a stem of another colour, leaves) is hidden.
+/// centre as far as it is higher. A stem whose end is known is left out of the mask. What is not of the commonest hue
+/// (warts, a stem of another colour, leaves) is hidden.
 ///
 /// outline  of the same mushroom; its upper face is its cap, its lower one its hymenium, which is not empty
 /// cost     about 60 ms

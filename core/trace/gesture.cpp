@@ -56,9 +56,8 @@ bool is_reversed(const Stroke& axis, const Mask& mask) {
     // The halves of the mushroom along the line, not those of the line, which may be short.
     double least = 1e300, most = -1e300;
     const auto each = [&](const auto& visit) {
-        for (int y = 0; y < mask.height; ++y)
-            for (int x = 0; x < mask.width; ++x)
-                if (mask.at(x, y)) visit((x + 0.5) * along.x + (y + 0.5) * along.y);
+        each_pixel(mask,
+                   [&](int, int, const glm::dvec2& middle) { visit(glm::dot(middle, along)); });
     };
     each([&](double at) {
         least = std::min(least, at);

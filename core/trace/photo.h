@@ -1,7 +1,9 @@
 // A photograph as it is traced: pixels of a size at which every step is fast.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -50,9 +52,21 @@ struct Mask {
     [[nodiscard]] bool at(int x, int y) const {
         return x >= 0 && y >= 0 && x < width && y < height && inside[index(x, y)] != 0;
     }
+    /// Returns the pixel that contains a place; false beyond the borders.
+    [[nodiscard]] bool at(const glm::dvec2& place) const {
+        return at(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
+    }
     [[nodiscard]] std::size_t area() const;
     bool operator==(const Mask&) const = default;
 };
+
+/// Calls `visit` with each pixel of a mask, row by row: x, y, and its middle.
+template <class Visit>
+void each_pixel(const Mask& mask, Visit visit) {
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x)
+            if (mask.at(x, y)) visit(x, y, glm::dvec2(x + 0.5, y + 0.5));
+}
 
 /// Returns the part of a mask that hangs together, by edges of pixels, with any pixel of another one.
 [[nodiscard]] Mask connected_with(const Mask& mask, const Mask& seeds);

@@ -31,14 +31,6 @@ constexpr std::size_t edge = 5;
 /// Columns across the stem in which the soil before it is measured.
 constexpr std::size_t columns = 15;
 
-/// Calls `visit` with each pixel of a mask: x, y, and its middle.
-template <class Visit>
-void each_pixel(const Mask& mask, Visit visit) {
-    for (int y = 0; y < mask.height; ++y)
-        for (int x = 0; x < mask.width; ++x)
-            if (mask.at(x, y)) visit(x, y, glm::dvec2(x + 0.5, y + 0.5));
-}
-
 /// A mask in slices across its axis, the lowest first.
 struct Slices {
     glm::dvec2 up{0.0}, right{0.0};
