@@ -1,6 +1,6 @@
 // Handles on a photograph of the cap: its middle, and where the stem ends.
 import { draw } from "../dom";
-import { distance, inside, type CapSketch, type Extent, type Point } from "./gesture";
+import { arrowSteps, distance, inside, type CapSketch, type Extent, type Point } from "./gesture";
 import { abovePixels } from "./outline_editor";
 
 export const marks = ["centre", "stemEnd"] as const;
@@ -146,13 +146,7 @@ export class CapMarks {
     private key(mark: Mark, event: KeyboardEvent): void {
         const place = this.places[mark];
         if (!place || event.ctrlKey || event.metaKey || event.altKey) return;
-        const steps: Readonly<Record<string, Point>> = {
-            ArrowLeft: [-1, 0],
-            ArrowRight: [1, 0],
-            ArrowUp: [0, -1],
-            ArrowDown: [0, 1],
-        };
-        const step = steps[event.key];
+        const step = arrowSteps[event.key];
         if (step) {
             this.start ??= { mark, place };
             const far = event.shiftKey ? 10 : 1;

@@ -11,6 +11,14 @@ export type Stroke = readonly Point[];
 export const tools = ["axis", "cap", "keep", "drop", "frame"] as const;
 export type Tool = (typeof tools)[number];
 
+/** Where the arrow keys lead in pixels of a photograph, whose y goes down. */
+export const arrowSteps: Readonly<Record<string, Point>> = {
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+    ArrowUp: [0, -1],
+    ArrowDown: [0, 1],
+};
+
 export interface Gesture {
     /** From the foot to the top. */
     axis: Stroke;

@@ -1,6 +1,7 @@
 // The photograph, and the lines that are drawn on it by mouse, pen, finger or keyboard.
 import { byId, draw } from "../dom";
 import {
+    arrowSteps,
     distance,
     inside,
     simplified,
@@ -510,13 +511,7 @@ export class Sketch {
     }
 
     private key(event: KeyboardEvent): void {
-        const steps: Record<string, Point> = {
-            ArrowLeft: [-1, 0],
-            ArrowRight: [1, 0],
-            ArrowUp: [0, -1],
-            ArrowDown: [0, 1],
-        };
-        const step = steps[event.key];
+        const step = arrowSteps[event.key];
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         const zooms: Record<string, () => void> = {
             "+": () => this.zoomIn(),
