@@ -22,6 +22,7 @@
 #include "api/http/errors.h"
 #include "core/params/messages.h"
 #include "core/problems.h"
+#include "server/records/circuit_breaker.h"
 #include "server/records/postgres_schema.h"
 #include "server/records/sql_records.h"
 
@@ -42,6 +43,14 @@ constexpr int most_attempts = 5;
 /// How long a request waits for a connection, and how long for the result of one statement. The database itself
 /// ends a statement earlier, so that the second is for one that hangs.
 constexpr std::chrono::seconds most_wait(5), most_execution(15);
+
+/// How long a statement has no result before the database is asked whether it answers at all, and how often while a
+/// database does not answer that is tried again. Without both, everyone who needs the library would wait as long as a
+/// statement may, in the threads that grow everything else.
+constexpr std::chrono::seconds most_silence(1), between_attempts(3);
+
+/// A failure that took at least this long was a wait in vain.
+constexpr std::chrono::milliseconds long_wait(900);
 
 /// Types of values, as PostgreSQL numbers them.
 constexpr Oid type_bytea = 17, type_int8 = 20, type_int4 = 23, type_text = 25;
@@ -157,23 +166,8 @@ class Parameters {
 class PostgresConnection final : public SqlConnection {
   public:
     /// throws  Failure
-    explicit PostgresConnection(const std::string& address) {
-        // Later keywords win, so that the address may say otherwise, but not in which encoding we write.
-        const std::array keywords = {"connect_timeout",
-                                     "tcp_user_timeout",
-                                     "keepalives_idle",
-                                     "fallback_application_name",
-                                     "dbname",
-                                     "client_encoding",
-                                     static_cast<const char*>(nullptr)};
-        const std::array values = {"2",
-                                   "10000",
-                                   "15",
-                                   "sporeprint",
-                                   address.c_str(),
-                                   "UTF8",
-                                   static_cast<const char*>(nullptr)};
-        connection_.reset(PQconnectdbParams(keywords.data(), values.data(), 1));
+    explicit PostgresConnection(const std::string& address) : address_(address) {
+        connection_.reset(PQconnectdbParams(keywords.data(), values().data(), 1));
         if (PQstatus(connection_.get()) != CONNECTION_OK) fail_broken();
         PQsetNoticeProcessor(
             connection_.get(), [](void*, const char*) {}, nullptr);
@@ -220,7 +214,27 @@ class PostgresConnection final : public SqlConnection {
     }
 
   private:
+    std::string address_;
     Owned<PGconn> connection_;
+
+    /// Later keywords win, so that the address may say otherwise, but not in which encoding we write.
+    static constexpr std::array keywords = {"connect_timeout",
+                                            "tcp_user_timeout",
+                                            "keepalives_idle",
+                                            "fallback_application_name",
+                                            "dbname",
+                                            "client_encoding",
+                                            static_cast<const char*>(nullptr)};
+
+    /// Returns the values of the keywords.
+    [[nodiscard]] std::array<const char*, keywords.size()> values() const {
+        return {"2", "10000", "15", "sporeprint", address_.c_str(), "UTF8", nullptr};
+    }
+
+    /// Returns whether the database answers somebody who connects. That takes as long as a connection may.
+    [[nodiscard]] bool answers() const {
+        return PQpingParams(keywords.data(), values().data(), 1) != PQPING_NO_RESPONSE;
+    }
 
     [[noreturn]] void fail_broken(std::string why = {}) const {
         if (why.empty()) why = line_of(PQerrorMessage(connection_.get()));
@@ -242,8 +256,11 @@ class PostgresConnection final : public SqlConnection {
                             std::to_string(most_execution.count()) + " s");
             pollfd ready{PQsocket(connection_.get()),
                          static_cast<short>(unsent > 0 ? POLLIN | POLLOUT : POLLIN), 0};
-            if (::poll(&ready, 1, static_cast<int>(left.count())) < 0 && errno != EINTR)
-                fail_broken();
+            const std::chrono::milliseconds pause =
+                std::min<std::chrono::milliseconds>(left, most_silence);
+            const int woken = ::poll(&ready, 1, static_cast<int>(pause.count()));
+            if (woken < 0 && errno != EINTR) fail_broken();
+            if (woken == 0 && !answers()) fail_broken("it does not answer");
             if (PQconsumeInput(connection_.get()) == 0) fail_broken();
         }
     }
@@ -320,6 +337,7 @@ class PostgresDatabase final : public SqlDatabase {
     std::vector<std::unique_ptr<PostgresConnection>> idle_;
     int in_use_ = 0;
     std::unique_ptr<PostgresConnection> listener_;
+    CircuitBreaker breaker_{between_attempts};
 
     [[noreturn]] void unavailable(const std::string& why) const {
         throw api::Unavailable(name_ + ": " + why);
@@ -369,6 +387,10 @@ class PostgresDatabase final : public SqlDatabase {
         for (int attempt = 1;; ++attempt) {
             std::unique_ptr<PostgresConnection> connection;
             bool is_committing = false;
+            const Clock::time_point began = Clock::now();
+            if (!breaker_.may_try(began))
+                unavailable("it did not answer; it is tried again every " +
+                            std::to_string(between_attempts.count()) + " s");
             const auto abandon = [&](bool is_broken) {
                 if (!connection) return;
                 try {
@@ -385,16 +407,19 @@ class PostgresDatabase final : public SqlDatabase {
                 is_committing = body(*connection);
                 if (begin) connection->execute(is_committing ? "COMMIT" : "ROLLBACK", {});
                 give_back(std::move(connection));
+                breaker_.close();
                 return;
             } catch (const Failure& failure) {
                 const bool was_open = connection != nullptr;
                 abandon(failure.is_broken);
                 if (failure.is_broken) close_idle();
+                const bool was_silent = failure.is_broken && Clock::now() - began >= long_wait;
+                if (was_silent) breaker_.open(Clock::now());
                 if (begin && is_committing && failure.is_broken)
                     unavailable("the connection broke during a commit (" + failure.message +
                                 "), so it is not known whether it was committed");
-                const bool may_succeed =
-                    failure.is_conflict() || (failure.is_broken && was_open && attempt == 1);
+                const bool may_succeed = failure.is_conflict() || (failure.is_broken && was_open &&
+                                                                   !was_silent && attempt == 1);
                 if (!may_succeed || attempt == most_attempts) unavailable(failure.message);
             } catch (...) {
                 abandon(false);

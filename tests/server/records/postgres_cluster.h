@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -69,6 +70,10 @@ class PostgresCluster {
         waitpid(server_, nullptr, 0);
         server_ = 0;
     }
+
+    /// Stops all of its processes without an end, so that they take what is sent to them and say nothing.
+    void pause() const { signal_all(SIGSTOP); }
+    void resume() const { signal_all(SIGCONT); }
 
     /// Returns the address of one of its databases.
     [[nodiscard]] std::string address(const std::string& database) const {
@@ -147,6 +152,15 @@ class PostgresCluster {
         if (!freopen("/dev/null", "w", stdout) || !freopen("/dev/null", "w", stderr)) _exit(126);
         execv(program.c_str(), arguments.data());
         _exit(127);
+    }
+
+    /// Sends a signal to the server and to the processes that it has for its connections.
+    void signal_all(int signal) const {
+        kill(server_, signal);
+        const std::string task =
+            "/proc/" + std::to_string(server_) + "/task/" + std::to_string(server_);
+        std::ifstream children(task + "/children");
+        for (pid_t child = 0; children >> child;) kill(child, signal);
     }
 
     static void finish(pid_t child) {

@@ -141,6 +141,33 @@ TEST_F(Postgres, ARestartIsSurvivedAndWhatWasAcknowledgedIsThere) {
     }
 }
 
+TEST_F(Postgres, OnlyOneWaitsForADatabaseThatHangs) {
+    const std::unique_ptr<Records> records = open();
+    records->add_owner("kaja", 1);
+    using Clock = std::chrono::steady_clock;
+    const auto is_refused = [&] {
+        try {
+            static_cast<void>(records->owners());
+        } catch (const Unavailable& error) {
+            EXPECT_NE(std::string(error.what()).find("answer"), std::string::npos) << error.what();
+            return true;
+        }
+        return false;
+    };
+    cluster_->pause();
+    EXPECT_TRUE(is_refused()) << "who finds out waits for a second and for one connection";
+    const Clock::time_point begin = Clock::now();
+    int refused = 0;
+    for (; Clock::now() - begin < std::chrono::milliseconds(500); ++refused)
+        EXPECT_TRUE(is_refused());
+    EXPECT_GT(refused, 100) << "the others do not wait";
+    cluster_->resume();
+    while (is_refused() && Clock::now() - begin < std::chrono::seconds(60))
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(records->owners().size(), 1U) << "it is used again by itself";
+    EXPECT_TRUE(records->add_owner("sami", 2));
+}
+
 TEST_F(Postgres, OwnersThatShareImagesDoNotBlockEachOther) {
     // Two owners who write the same blobs in opposite orders would each wait for the other, which the database ends
     // by refusing one of them.
