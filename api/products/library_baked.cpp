@@ -123,16 +123,21 @@ Response get_baked(LibraryCall& call) {
     const NamedVersion& named = std::get<NamedVersion>(found);
     const LibraryName& version = named.name;
     const std::string name = call.captured[1] + ".glb";
-    std::optional<Blob> file = call.records.file(version.owner, version.name, version.number, name);
-    if (!file)
+    const auto missing = [&] {
         return call.problem(404, "of " + in_quotes(text_of(version)) + " no " + in_quotes(name) +
                                      " is baked; " +
                                      in_quotes("/v1/library/" + text_of(version) + "/baked.json") +
                                      " lists what is");
+    };
+    // The bytes, of which there may be many, are read only if they are sent.
+    const std::vector<Blob> files = call.records.files(version.owner, version.name, version.number);
+    const auto known = std::find_if(files.begin(), files.end(),
+                                    [&](const Blob& file) { return file.place == name; });
+    if (known == files.end()) return missing();
     Response response;
-    const std::string etag = etag_of_text(file->sha256);
+    const std::string etag = etag_of_text(known->sha256);
     response.headers = {
-        {"Content-Type", file->media},
+        {"Content-Type", known->media},
         {"ETag", etag},
         {"Content-Disposition", "inline; filename=\"" + version.owner + '-' + version.name + '-' +
                                     std::to_string(version.number) + '-' + name + '"'}};
@@ -143,6 +148,8 @@ Response get_baked(LibraryCall& call) {
         return call.responses().precondition_failed(call.request, "If-Match", etags);
     if (conditions.unchanged(etags) || conditions.none_match_any())
         return call.responses().not_modified(call.request, std::move(response), etag);
+    std::optional<Blob> file = call.records.file(version.owner, version.name, version.number, name);
+    if (!file) return missing();  // withdrawn meanwhile
     response.body = {Slice(std::make_shared<const Bytes>(std::move(file->bytes)))};
     call.responses().select_range(call.request, response);
     if (response.status == 206) set_header(response, "Accept-Ranges", "bytes");
