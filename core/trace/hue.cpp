@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 
 namespace sporeprint::trace {
@@ -12,6 +13,91 @@ constexpr int hue_steps = 32;
 
 /// Pixels darker than this share of the light ones do not count.
 constexpr double least_light = 0.3;
+
+/// Numbers of pixels by hue, with a border of empty ones.
+using Counts = std::array<std::array<int, hue_steps + 2>, hue_steps + 2>;
+
+/// Calls a function with each hue that pixels have, and their number.
+template <class Use>
+void each_hue(const Counts& counts, Use use) {
+    for (int red = 0; red < hue_steps; ++red)
+        for (int green = 0; green < hue_steps; ++green)
+            if (const int count =
+                    counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)];
+                count > 0)
+                use(Hue{red, green}, count);
+}
+
+/// Returns the middle of the three by three hues that together most pixels have; of equal sums the one with most in
+/// its middle.
+Hue densest(const Counts& counts) {
+    Hue best{};
+    std::array<int, 2> most{};
+    for (int red = 0; red < hue_steps; ++red)
+        for (int green = 0; green < hue_steps; ++green) {
+            int sum = 0;
+            for (int i = red; i <= red + 2; ++i)
+                for (int j = green; j <= green + 2; ++j)
+                    sum += counts[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+            const std::array<int, 2> here = {
+                sum,
+                counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)]};
+            if (here <= most) continue;
+            most = here;
+            best = {red, green};
+        }
+    return best;
+}
+
+/// Two groups of hues are different colours if their means are farther apart, in steps.
+constexpr double least_apart = 5.0;
+
+/// Leaves the larger one of two groups of hues, if they are different colours: large spots that are all alike may have
+/// the commonest hue of a cap whose own hue changes in the light.
+void leave_larger_group(Counts& counts, const Hue& first) {
+    struct Group {
+        double red, green;
+        std::int64_t pixels;
+        [[nodiscard]] double square(const Hue& hue) const {
+            const double x = hue[0] - red, y = hue[1] - green;
+            return x * x + y * y;
+        }
+    };
+    // Lloyd's algorithm: from the commonest hue and from that which has most pixels far from it.
+    Group one{static_cast<double>(first[0]), static_cast<double>(first[1]), 0}, other = one;
+    double farthest = 0.0;
+    each_hue(counts, [&](const Hue& hue, int count) {
+        const double weight = count * one.square(hue);
+        if (weight <= farthest) return;
+        farthest = weight;
+        other = {static_cast<double>(hue[0]), static_cast<double>(hue[1]), 0};
+    });
+    if (farthest == 0.0) return;
+    const auto is_of_one = [&](const Hue& hue) { return one.square(hue) <= other.square(hue); };
+    for (int round = 0; round < 16; ++round) {
+        std::array<Group, 2> sums{};
+        each_hue(counts, [&](const Hue& hue, int count) {
+            Group& sum = sums[is_of_one(hue) ? 0 : 1];
+            sum.red += static_cast<double>(hue[0]) * count;
+            sum.green += static_cast<double>(hue[1]) * count;
+            sum.pixels += count;
+        });
+        for (Group& sum : sums) {
+            if (sum.pixels == 0) return;
+            sum.red /= static_cast<double>(sum.pixels);
+            sum.green /= static_cast<double>(sum.pixels);
+        }
+        one = sums[0];
+        other = sums[1];
+    }
+    const double x = one.red - other.red, y = one.green - other.green;
+    if (x * x + y * y < least_apart * least_apart) return;
+    const bool leaves_one = one.pixels >= other.pixels;
+    for (int red = 0; red < hue_steps; ++red)
+        for (int green = 0; green < hue_steps; ++green)
+            if (is_of_one({red, green}) != leaves_one)
+                counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)] = 0;
+}
 
 }  // namespace
 
@@ -35,30 +121,14 @@ Hue commonest_hue(std::vector<Pixel> pixels) {
                      [&](const Pixel& a, const Pixel& b) { return value(a) < value(b); });
     // By the greatest channel: pure red is no shade of white.
     const double least = least_light * value(*light);
-    std::array<std::array<int, hue_steps + 2>, hue_steps + 2> counts{};
+    Counts counts{};
     for (const Pixel& pixel : pixels) {
         if (value(pixel) < least) continue;
         const Hue hue = hue_of(pixel);
         ++counts[static_cast<std::size_t>(hue[0] + 1)][static_cast<std::size_t>(hue[1] + 1)];
     }
-    // The middle of the three by three hues that together most pixels have.
-    Hue best{};
-    // Of equal sums the one with most in its middle.
-    std::array<int, 2> most{};
-    for (int red = 0; red < hue_steps; ++red)
-        for (int green = 0; green < hue_steps; ++green) {
-            int sum = 0;
-            for (int i = red; i <= red + 2; ++i)
-                for (int j = green; j <= green + 2; ++j)
-                    sum += counts[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-            const std::array<int, 2> here = {
-                sum,
-                counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)]};
-            if (here <= most) continue;
-            most = here;
-            best = {red, green};
-        }
-    return best;
+    leave_larger_group(counts, densest(counts));
+    return densest(counts);
 }
 
 }  // namespace sporeprint::trace

@@ -20,7 +20,8 @@ using Hue = std::array<int, 2>;
 [[nodiscard]] bool are_near(const Hue& a, const Hue& b, int steps);
 
 /// Returns the hue that most pixels have or nearly have. Those that are much darker than the light ones do not
-/// count: they are outlines and deep shade.
+/// count: they are outlines and deep shade. Of two different colours that which more pixels have is meant, even if its
+/// hue varies more.
 [[nodiscard]] Hue commonest_hue(std::vector<Pixel> pixels);
 
 }  // namespace sporeprint::trace

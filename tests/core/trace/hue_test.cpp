@@ -30,6 +30,19 @@ TEST(CommonestHue, IsThatOfMostLitPixels) {
     EXPECT_TRUE(trace::are_near(trace::commonest_hue({}), trace::hue_of({100, 100, 100}), 1));
 }
 
+TEST(CommonestHue, OfTwoColoursIsOneOfTheLarger) {
+    // A red cap whose hue changes in the light, with pale spots that are all alike.
+    const std::vector<Pixel> reds = {
+        {250, 70, 50}, {240, 30, 30}, {230, 20, 80}, {180, 20, 120}, {250, 100, 60}};
+    std::vector<Pixel> pixels;
+    for (const Pixel& red : reds) pixels.insert(pixels.end(), 12, red);
+    pixels.insert(pixels.end(), 40, Pixel{250, 220, 200});
+    const trace::Hue pale = trace::hue_of({250, 220, 200});
+    EXPECT_FALSE(trace::are_near(trace::commonest_hue(pixels), pale, 4));
+    pixels.insert(pixels.end(), 40, Pixel{250, 220, 200});
+    EXPECT_EQ(trace::commonest_hue(pixels), pale);
+}
+
 RC_GTEST_PROP(CommonestHue, IsThatOfOnePixel, ()) {
     Pixel pixel{};
     for (std::uint8_t& channel : pixel) channel = *rc::gen::arbitrary<std::uint8_t>();
