@@ -27,6 +27,10 @@ constexpr double of_greatest = 0.94, not_below = 0.4;
 /// distance of the narrowest place below the cap. It is the deepest within a share of the height.
 constexpr double near_height = 0.025, near_self = 1.6, snap = 0.03;
 
+/// A margin whose outline turns by less is rolled in. It is where the lower face begins to climb by more than this
+/// slope, at least so far out, of the greatest distance.
+constexpr double sharp_margin = 50.0, climb = 1.0, of_rolled = 0.7;
+
 /// How far below the margin the narrowest place is looked for, of the height.
 constexpr double below_margin = 0.35;
 
@@ -103,6 +107,7 @@ class Turns {
         return -side_ * turn;
     }
     [[nodiscard]] double arc(std::size_t i) const { return arcs_[i]; }
+    [[nodiscard]] double reach() const { return reach_; }
     [[nodiscard]] std::size_t index(double arc) const {
         const auto after = std::lower_bound(arcs_.begin(), arcs_.end(), arc);
         return after == arcs_.end() ? arcs_.size() - 1
@@ -136,6 +141,20 @@ double turn_between(const std::vector<glm::dvec2>& points, double side, std::siz
     const glm::dvec2 in = points[i] - along(points, i, reach, false),
                      out = along(points, i, reach, true) - points[i];
     return -side * arc_tangent(in.x * out.y - in.y * out.x, glm::dot(in, out)) * (180.0 / pi);
+}
+
+/// Returns where a margin that is rolled in has its lowest place: out from the junction, the first one from which the
+/// outline climbs; the margin as it was if there is none.
+///
+/// least  distance from the axis
+std::size_t rolled_margin(const ContourSide& side, const Turns& turns, double least) {
+    for (std::size_t i = side.junction + 1; i < side.margin; ++i) {
+        if (side.local[i].x < least) continue;
+        const glm::dvec2 run = side.local[turns.index(turns.arc(i) + turns.reach())] -
+                               side.local[turns.index(turns.arc(i) - turns.reach())];
+        if (run.y > climb * run.x) return i;
+    }
+    return side.margin;
 }
 
 /// Marks one side. Returns true if stem and face meet at a corner.
@@ -180,7 +199,10 @@ bool mark(ContourSide& side, double sign, double height) {
         deepest = turn;
         side.junction = i;
     }
-    if (has_corner) return side.local[side.junction].x < most_of_margin * side.local[margin].x;
+    if (has_corner) {
+        if (sharpest < sharp_margin) side.margin = rolled_margin(side, turns, of_rolled * farthest);
+        return side.local[side.junction].x < most_of_margin * side.local[margin].x;
+    }
     const Turns wide(side.points, sign, 0.5 * wide_window * height);
     for (std::size_t i = margin; i-- > 0 && turns.arc(i) >= end;) {
         const double turn = wide.at(i);
