@@ -301,6 +301,16 @@ void warn_of_faces(SpeciesFromPhoto& found, const FacesShown& shown) {
     warn(shown.below, "below", "lower face", "; a stem that is seen needs its end, stem_end");
 }
 
+/// Says that a species is of a photograph: it is not the template, and has none of its names.
+void describe(Facts& facts, const std::string& template_id) {
+    facts.scientific_name = Text<64>();
+    facts.common_name = Text<64>("Photographed mushroom");
+    const std::string note =
+        "Traced from a photograph; what it does not show is that of " + template_id;
+    facts.sources.insert(facts.sources.begin(), Text<160>(std::string_view(note)));
+    facts.sources.resize(std::min(facts.sources.size(), info_of<Facts>("sources").most));
+}
+
 std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
     std::vector<TraceWarning> warnings;
     const auto percent = [](double share) {
@@ -445,6 +455,7 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhot
         take_colours(colours, shown);
         trace::give_colours(found.whole.species, found.whole.stage, colours);
         found.whole.species.id = spec.id;
+        describe(found.whole.species.facts, chosen.id);
         // What nobody has stated an age for grows as it was photographed.
         trace::move_ages(found.whole.species, found.whole.stage, MushroomParams{}.age);
         std::optional<trace::PhotoImages> images;

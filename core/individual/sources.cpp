@@ -48,12 +48,14 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     const Species& species = entry.species;
     Source source;
     source.id = species.id.string();
-    source.label = species.facts.scientific_name.string();
+    const Facts& facts = species.facts;
+    source.label =
+        (facts.scientific_name.view().empty() ? facts.common_name : facts.scientific_name).string();
     source.weight = weight;
     source.hash = entry.hash;
     source.spread = species.spread;
     source.ground = species.ground;
-    source.wood = wood_of(species.facts);
+    source.wood = wood_of(facts);
     source.growth = growth_weights(species.stages, age);
     source.mature = growth_weights(species.stages, mature_age);
     Shares<Model> stages;

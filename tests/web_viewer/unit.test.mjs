@@ -23,6 +23,7 @@ const { outputFiles } = packages("esbuild").buildSync({
             "depth_of_field",
             "designer/axis_line",
             "designer/details",
+            "designer/file_title",
             "designer/findings",
             "designer/gesture",
             "designer/library",
@@ -1040,6 +1041,22 @@ test("a name of the library resembles a title, and the library allows it", () =>
         assert.equal(page.nameLike(title), name);
         assert.match(name, named);
     }
+});
+
+test("a photograph gives its species a title, unless its name is a camera's", () => {
+    const titles = {
+        "red_bolete.jpg": "Red bolete",
+        "champiñón-de-París (2).webp": "Champiñón de París 2",
+        "under the birch.png": "Under the birch",
+        "IMG_20261128_1203.jpg": undefined,
+        "DSCF0042.JPG": undefined,
+        "photo1.jpg": undefined,
+        "Screenshot 3.png": undefined,
+        "image.png": undefined,
+        "": undefined,
+    };
+    for (const [file, title] of Object.entries(titles)) assert.equal(page.titleOfFile(file), title, file);
+    assert.equal(page.titleOfFile(`${"mushroom ".repeat(20)}.jpg`).length <= 64, true);
 });
 
 test("a token is taken from the fragment of an address, and from nothing else", () => {

@@ -75,6 +75,14 @@ TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
     EXPECT_NEAR(height_of(photographed), 0.25, 0.01);
     // Without a stated age it grows as it was photographed.
     EXPECT_NEAR(photographed.age, MushroomParams{}.age, 1e-9);
+    // It is not the template, whose ecology it has.
+    const Facts &facts = found.whole.species.facts,
+                &lent = small_atlas()->find("boletus_edulis")->species.facts;
+    EXPECT_EQ(facts.scientific_name.view(), "");
+    EXPECT_NE(facts.common_name.view(), lent.common_name.view());
+    EXPECT_EQ(facts.sources.at(0).view(),
+              "Traced from a photograph; what it does not show is that of boletus_edulis");
+    EXPECT_EQ(facts.habitat.view(), lent.habitat.view());
     // In pixels of the photograph: from the foot to the apex.
     EXPECT_NEAR(found.traced.left.front().y, bolete().gesture.axis.front().y, 40.0);
     EXPECT_LT(found.traced.left.back().y, found.traced.left.front().y);

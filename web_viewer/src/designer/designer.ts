@@ -54,6 +54,7 @@ import {
     type Json,
 } from "./details";
 import { DetailsPanel, showFormProblem } from "./details_panel";
+import { titleOfFile } from "./file_title";
 import { Loupe } from "./loupe";
 import { AxisFrame, polylineOf, withInserted, withRemoved, type Silhouette } from "./outline";
 import { OutlineEditor, type ShownOutline } from "./outline_editor";
@@ -103,6 +104,9 @@ const mostLean = 45;
 /** The eyedropper takes the mean of so many pixels of a photograph to each side. */
 const eyedropperReach = 2;
 
+/** Where a species has its title. */
+const titlePointer = "/facts/common_name";
+
 /** Time after which a step is in the draft, milliseconds. */
 const saveDelayMs = 300;
 
@@ -126,7 +130,7 @@ export class Designer {
     private mode: "draw" | "outline" | "bend" = "draw";
     private readonly library = new LibraryPanel(
         (file) => this.open(file),
-        (title) => this.write({ "/facts/common_name": title }),
+        (title) => this.write({ [titlePointer]: title }),
         () => this.portraitRenderer,
         () => this.isBusy,
     );
@@ -305,7 +309,12 @@ export class Designer {
             announce("The photograph is here again, with its lines.");
             return true;
         }
-        const drawing = { ...startOfDrawing, source: this.sources.add(opened) };
+        const title = source.drawable && file instanceof File ? titleOfFile(file.name) : undefined;
+        const drawing = {
+            ...startOfDrawing,
+            source: this.sources.add(opened),
+            details: title === undefined ? undefined : { [titlePointer]: title },
+        };
         this.leave();
         if (photograph || this.history.undoable) this.history.push(drawing);
         else this.history.begin(drawing);
@@ -1060,7 +1069,8 @@ export class Designer {
             this.showTrace(trace);
             // What an edit has done is announced where it is done.
             const { shape, details } = this.history.value;
-            if (!shape && !details) announce(this.summary(trace));
+            const isEdited = Object.keys(details ?? {}).some((pointer) => pointer !== titlePointer);
+            if (!shape && !isEdited) announce(this.summary(trace));
         } catch (error) {
             if (tracing.signal.aborted) return;
             this.tracing = undefined;
