@@ -176,7 +176,8 @@ std::vector<Run> runs_of_row(const trace::Mask& mask, int y) {
     return runs;
 }
 
-/// Returns lines as a careful person draws them: up the middle of stem and cap, and across the widest row.
+}  // namespace
+
 trace::Gesture drawn_by_hand(const trace::Mask& truth) {
     std::vector<glm::dvec2> middles;
     Run widest;
@@ -203,8 +204,6 @@ trace::Gesture drawn_by_hand(const trace::Mask& truth) {
         gesture.cap.emplace_back(widest.middle() + share * widest.length(), widest_row + 0.5);
     return gesture;
 }
-
-}  // namespace
 
 Photograph photograph(const Sitter& sitter, Scenery scenery) {
     const RgbaImage image = portrait(sitter);

@@ -36,6 +36,9 @@ struct Sitter {
 /// leaf's pixels outside.
 [[nodiscard]] Photograph photograph(const Sitter& sitter, Scenery scenery);
 
+/// Returns lines as a careful person draws them: up the middle of stem and cap, and across the widest row.
+[[nodiscard]] trace::Gesture drawn_by_hand(const trace::Mask& truth);
+
 /// Returns the pixels of a model that grows without variation and ground.
 [[nodiscard]] trace::Mask silhouette_of(const Model& model, View view, int side);
 

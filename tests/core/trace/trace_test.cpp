@@ -16,6 +16,7 @@
 #include "core/mesh/measure.h"
 #include "core/silhouette/outline.h"
 #include "tests/support/atlas.h"
+#include "tests/support/contours.h"
 #include "tests/support/drawn_mushroom.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
@@ -339,44 +340,13 @@ Model model_of(const std::string& species, const trace::Traced& found) {
     return model;
 }
 
-/// Returns the mean distance of the points of one contour from another.
-double distance(const trace::Contour& from, const trace::Contour& to) {
-    double sum = 0.0;
-    for (const glm::dvec2& a : from) {
-        double least = 1e300;
-        for (const glm::dvec2& b : to) least = std::min(least, glm::dot(a - b, a - b));
-        sum += std::sqrt(least);
-    }
-    return sum / static_cast<double>(from.size());
-}
-
 /// Returns the mean distance between the border of a mask and that of the model traced from it, of the
-/// height. The pictures of both are fitted to them, so that one is first scaled and moved to the other.
+/// height.
 double round_trip_error(const std::string& species, const Photograph& photo,
                         const trace::Traced& found) {
-    const trace::Contour truth = trace::contour_of(photo.truth, 0.0);
-    trace::Contour own =
-        trace::contour_of(silhouette_of(model_of(species, found), View::front, 1024), 0.0);
-    const auto range = [](const trace::Contour& contour) {
-        glm::dvec2 found_range(1e9, -1e9);
-        for (const glm::dvec2& at : contour)
-            found_range = {std::min(found_range.x, at.y), std::max(found_range.y, at.y)};
-        return found_range;
-    };
-    const glm::dvec2 of_truth = range(truth), of_own = range(own);
-    const double height = of_truth.y - of_truth.x, scale = height / (of_own.y - of_own.x);
-    for (glm::dvec2& at : own) at *= scale;
-    for (int round = 0; round < 20; ++round) {
-        glm::dvec2 move(0.0);
-        for (const glm::dvec2& a : own) {
-            glm::dvec2 nearest = truth.front() - a;
-            for (const glm::dvec2& b : truth)
-                if (glm::dot(b - a, b - a) < glm::dot(nearest, nearest)) nearest = b - a;
-            move += nearest;
-        }
-        for (glm::dvec2& at : own) at += 1.5 * move / static_cast<double>(own.size());
-    }
-    return 0.5 * (distance(own, truth) + distance(truth, own)) / height;
+    return contour_error(
+        trace::contour_of(photo.truth, 0.0),
+        trace::contour_of(silhouette_of(model_of(species, found), View::front, 1024), 0.0));
 }
 
 TEST(Traced, GrowsIntoTheSilhouetteOfThePhotograph) {
