@@ -102,6 +102,15 @@ test("the morph editor opens with two species, accepts up to five, and can be le
     assert.equal(await page.locator("#mode-morph").getAttribute("aria-current"), "page");
     assert.equal(Object.keys(shares(page)).length, 2);
     assert.ok(await page.locator("#morph-t").isVisible());
+    const [joined] = Object.keys(shares(page)).filter((id) => id !== a);
+    const chosen = [b, c, d, e].find((id) => id !== joined);
+    // What has joined by itself is said where everybody sees it, and gives way to what is chosen.
+    const notice = page.locator("#notice");
+    assert.match(await notice.textContent(), /is the other half for now/);
+    assert.ok(await notice.isVisible());
+    await page.screenshot({ path: path.join(folder, "notice.png") });
+    await page.locator(`#gallery button[data-species="${chosen}"]`).click();
+    assert.deepEqual(shares(page), { [a]: 0.5, [chosen]: 0.5 });
     for (const id of [b, c, d, e]) {
         const button = page.locator(`#gallery button[data-species="${id}"]`);
         if ((await button.getAttribute("aria-pressed")) === "false") await button.click();
@@ -122,6 +131,14 @@ test("the morph editor opens with two species, accepts up to five, and can be le
     await page.locator("#mode-species").click();
     await ready(page);
     assert.ok(parameters(page).has("species") && (await page.locator("#editor").isHidden()));
+    // Of two, taking one off leaves the other one alone.
+    await page.goBack();
+    await ready(page);
+    for (const id of Object.keys(shares(page)).filter((id) => id !== c))
+        await page.locator("#members li", { has: page.locator(`[data-share="${id}"]`) }).locator(".off").click();
+    await ready(page);
+    assert.equal(parameters(page).get("species"), c);
+    assert.ok(await page.locator("#editor").isHidden());
     expectNoProblems(log);
 });
 

@@ -11,7 +11,7 @@ import { fewestMembers, mostMembers, reweighted, thousandths, type Share } from 
 import { letterOf, WeightPad } from "./pad";
 import type { Settings } from "./settings";
 import { words } from "./schema";
-import { announce } from "./status_line";
+import { announce, notify } from "./status_line";
 
 export interface MorphEditorEvents {
     /** The morph is being dragged: a draft is needed. */
@@ -20,6 +20,8 @@ export interface MorphEditorEvents {
     moved: (name: string) => void;
     /** Another set of species was chosen. */
     chosen: () => void;
+    /** One species is left, which is no morph any more. */
+    left: (id: string) => void;
 }
 
 /** Time without a key press after which the final model is requested, milliseconds. */
@@ -43,6 +45,8 @@ export class MorphEditor {
     private timer: ReturnType<typeof setTimeout> | undefined;
     private known: { address: string; correspondence: Correspondence } | undefined;
     private pending: { address: string; stop: AbortController } | undefined;
+    /** The species that joined by itself, so that there is a morph: the next choice takes its place. */
+    private placeholder: string | undefined;
     private readonly curve = make("select", {
         id: "arc-curve",
         "aria-label": "Sub-curve of a new arc",
@@ -118,28 +122,34 @@ export class MorphEditor {
         byId("graph").addEventListener("keydown", (event) => this.onGraphKey(event));
     }
 
-    /** Adds a species or removes it; announces the reason if neither is possible. */
+    /** Adds a species or removes it; says why if neither is possible. */
     toggle(id: string): void {
         const shares = this.settings.morph?.shares ?? [];
         const others = shares.filter((share) => share.id !== id);
-        if (others.length === shares.length) {
-            if (shares[0] && !this.isOfOneFamily(id, shares[0].id)) {
-                const added = `${this.nameOf(id)} is ${this.familyOf(id)}`;
-                const present = `${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`;
-                return announce(`A morph needs one family: ${added}, ${present}`);
-            }
-            if (shares.length >= mostMembers)
-                return announce(`A morph has at most ${mostMembers} species: take one off first`);
-            this.choose([...shares, { id, weight: 0 }]);
-        } else {
-            if (others.length < fewestMembers)
-                return announce(`A morph needs ${fewestMembers} species: choose another one first`);
-            this.choose(others);
+        if (others.length < shares.length) {
+            this.placeholder = undefined;
+            const [last] = others;
+            if (others.length < fewestMembers && last) return this.events.left(last.id);
+            return this.choose(others);
         }
+        if (shares[0] && !this.isOfOneFamily(id, shares[0].id)) {
+            const added = `${this.nameOf(id)} is ${this.familyOf(id)}`;
+            const present = `${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`;
+            return notify(`A morph needs one family: ${added}, ${present}`);
+        }
+        const replaced = this.placeholder;
+        this.placeholder = undefined;
+        if (shares.some((share) => share.id === replaced))
+            return this.choose(
+                shares.map((share) => (share.id === replaced ? { ...share, id } : share)),
+            );
+        if (shares.length >= mostMembers)
+            return notify(`A morph has at most ${mostMembers} species: take one off first`);
+        this.choose([...shares, { id, weight: 0 }]);
     }
 
     /** Opens the editor with these shares; if they are fewer than two, the next species of the
-     *  gallery joins. */
+     *  gallery joins until another one is chosen. */
     enter(shares: readonly Share[]): void {
         const chosen = shares.slice(0, mostMembers);
         const start = this.species.findIndex(({ id }) => id === chosen[0]?.id);
@@ -151,9 +161,15 @@ export class MorphEditor {
                 chosen.push({ id: next.id, weight: 0 });
         }
         if (chosen.length < fewestMembers)
-            return announce("This server has too few species for a morph");
+            return notify("This server has too few species for a morph");
         const alone = chosen.length === fewestMembers && shares.length < fewestMembers;
         this.choose(alone ? chosen.map(({ id }) => ({ id, weight: 0.5 })) : chosen);
+        if (!alone) return;
+        this.placeholder = chosen[1]!.id;
+        notify(
+            `${this.nameOf(this.placeholder)} is the other half for now: ` +
+                "choose another species in the list, which takes its place",
+        );
     }
 
     /** Updates everything to the settings. */
@@ -293,6 +309,7 @@ export class MorphEditor {
     private setWeights(weights: readonly number[], released: boolean): void {
         const morph = this.settings.morph;
         if (!morph) return;
+        this.placeholder = undefined;
         const parts = thousandths(weights);
         this.settings.setMorph({
             ...morph,
@@ -352,7 +369,7 @@ export class MorphEditor {
             const percent = Number(entry.value);
             const shares = this.settings.morph?.shares ?? [];
             if (entry.value === "" || !(percent >= 0 && percent <= 100)) {
-                announce(`A share is between 0 and 100 %`);
+                notify(`A share is between 0 and 100 %`);
                 return this.showWeights();
             }
             this.setWeights(

@@ -4,7 +4,7 @@ import { byId, make } from "./dom";
 import { asRequestFailed, getJson } from "./http";
 import type { LoadedModel } from "./model_loader";
 import { snippetFor } from "./snippets";
-import { announce } from "./status_line";
+import { notify } from "./status_line";
 
 /** Time after which the memory of a saved file is freed: the download has begun by then. */
 const revokeMs = 10_000;
@@ -14,14 +14,14 @@ export function saveFile(blob: Blob, name: string): void {
     const address = URL.createObjectURL(blob);
     make("a", { href: address, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(address), revokeMs);
-    announce(`${name} saved`);
+    notify(`${name} saved`);
 }
 
 /** Copies a text; without the permission to do so it shows the text for copying by hand. */
 async function copy(text: string, label: string): Promise<void> {
     try {
         await navigator.clipboard.writeText(text);
-        announce(`${label} copied`);
+        notify(`${label} copied`);
     } catch {
         prompt(label, text);
     }
@@ -95,7 +95,7 @@ export class FileActions {
             const address = url.replace(/\.glb(?=\?|$)/, ".json");
             await copy(JSON.stringify(await getJson(address), undefined, 2), "Manifest");
         } catch (error) {
-            announce(asRequestFailed(error, "The manifest could not be read").message);
+            notify(asRequestFailed(error, "The manifest could not be read").message);
         }
     }
 

@@ -137,6 +137,7 @@ export class Page {
                 this.address.write(`morph ${members.join()}`);
                 this.begin(true);
             },
+            left: (id) => this.leaveEditor(id),
         });
         this.matrix = product.hasMatrix
             ? new MatrixTable(this.settings, { changed: () => this.changed("rows") })
@@ -278,13 +279,13 @@ export class Page {
         if (!this.settings.morph) this.editor.enter(readShares(this.settings.mix) ?? []);
     }
 
-    /** Shows the member with the greatest share alone. */
-    private leaveEditor(): void {
+    /** Shows one member alone, by itself that with the greatest share. */
+    private leaveEditor(id?: string): void {
         const { morph } = this.settings;
         if (!morph) return;
         const strongest = [...morph.shares].sort((one, other) => other.weight - one.weight)[0];
         this.settings.setMorph(undefined);
-        this.settings.choose(strongest?.id ?? this.settings.mix);
+        this.settings.choose(id ?? strongest?.id ?? this.settings.mix);
         this.address.write("mode");
         this.begin(true);
     }
