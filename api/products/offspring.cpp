@@ -333,7 +333,7 @@ std::string OffspringOfTwo::file_name(const OffspringSpec& spec, Product product
     for (const Parent* parent : {&spec.a, &spec.b})
         if (parent->own) canonical(*parent->own, text);
     std::uint32_t hash = XXH32(text.data(), text.size(), 0);
-    std::string name = spec.a.id + "_x_" + spec.b.id + '_';
+    std::string name = name_of_species(spec.a.id) + "_x_" + name_of_species(spec.b.id) + '_';
     for (int digit = 0; digit < 8; ++digit, hash <<= 4U) name += "0123456789abcdef"[hash >> 28U];
     if (product == Product::json) return name + ending_of(product);
     return sporeprint::file_name(name, spec.params.lod, spec.params.triangles, spec.params.file) +

@@ -47,10 +47,11 @@ std::string named(Mix mix) {
     std::sort(mix.begin(), mix.end(), [](const MixPart& a, const MixPart& b) {
         return a.weight != b.weight ? a.weight > b.weight : a.id < b.id;
     });
-    if (mix.size() == 1) return mix.front().id;
+    if (mix.size() == 1) return name_of_species(mix.front().id);
     std::string name;
     for (std::size_t i = 0; i < std::min(mix.size(), most_listed); ++i)
-        name += (i > 0 ? "_" : "") + mix[i].id + '_' + std::to_string(mix[i].weight);
+        name +=
+            (i > 0 ? "_" : "") + name_of_species(mix[i].id) + '_' + std::to_string(mix[i].weight);
     return mix.size() > most_listed
                ? name + "_and_" + std::to_string(mix.size() - most_listed) + "_more"
                : name;
@@ -94,6 +95,17 @@ std::string with_hash(std::string name, const std::string& text) {
 }
 
 }  // namespace
+
+std::string name_of_species(const std::string& id) {
+    const auto belongs = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    if (std::all_of(id.begin(), id.end(), belongs)) return id;
+    std::string word;
+    for (const char c : id)
+        if (belongs(c) || !word.empty()) word += belongs(c) ? c : '_';
+    return word + hash_of(id);
+}
 
 std::string mix_text(const Mix& mix) {
     if (mix.size() == 1) return mix.front().id;

@@ -18,6 +18,10 @@
 
 namespace sporeprint {
 
+/// Returns the identifier of a species as a part of a name: itself if it has the letters of names alone. "~owner.name@3"
+/// of a library becomes "owner_name_3_5b0c9a1e", with a hash, since "~owner_name.x" reads the same without its signs.
+[[nodiscard]] std::string name_of_species(const std::string& id);
+
 /// Returns a mix as it stands in a URL: no weight for a single species, no trailing zeros:
 /// "amanita_muscaria:0.7,boletus_edulis:0.3".
 [[nodiscard]] std::string mix_text(const Mix& mix);

@@ -75,6 +75,19 @@ TEST(Names, StateSpeciesSeedAgeAndLevel) {
     EXPECT_EQ(product_name(tree, atlas()), "broadleaf_tree_s1");
 }
 
+TEST(Names, OfALibraryArePlainAndDifferByOwner) {
+    EXPECT_EQ(name_of_species("amanita_muscaria"), "amanita_muscaria");
+    const std::string first = name_of_species("~kaja.red_cap@12"),
+                      second = name_of_species("~kaja_red.cap@12");
+    EXPECT_TRUE(first.starts_with("kaja_red_cap_12_")) << first;
+    EXPECT_TRUE(second.starts_with("kaja_red_cap_12_")) << second;
+    EXPECT_NE(first, second);
+    MushroomSpec spec = fly_agaric();
+    spec.mix = {{"~kaja.red_cap@12", 500}, {"~sami.fence_col@draft", 500}};
+    EXPECT_TRUE(is_plain(product_name(spec))) << product_name(spec);
+    EXPECT_TRUE(is_plain(skin_name(spec))) << skin_name(spec);
+}
+
 TEST(Names, DifferWhereverTheIndividualDiffers) {
     const MushroomSpec first = fly_agaric();
     std::vector<MushroomSpec> all(10, first);
