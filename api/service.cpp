@@ -261,6 +261,11 @@ Plan Service::plan(const Request& request, const RoutedRequest& routed, bool cor
     }
 }
 
+std::string Service::owner_of(const Request& request) const {
+    const std::shared_ptr<Library>& library = parts_->context.library;
+    return library ? known_owner(*library, request) : std::string();
+}
+
 void Service::finish(const Key& key, const Response& response) {
     if (response.status != 200 || !response.is_stored) return;
     Cache<CachedResponse>& responses = parts_->context.store.responses;

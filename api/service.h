@@ -52,6 +52,10 @@ class Service {
     [[nodiscard]] Plan plan(const Request& request, const RoutedRequest& routed,
                             bool correspondence_ready = false);
 
+    /// Returns the owner in the library to whom the token of a request belongs, as far as that is known without asking
+    /// the database: who pays for its work. Never blocks; empty for nobody.
+    [[nodiscard]] std::string owner_of(const Request& request) const;
+
     /// Inserts the response of a job into the response cache if its status is 200 and is_stored is
     /// true. To be called once per computation.
     ///

@@ -140,12 +140,19 @@ void RequestHandler::respond(const std::shared_ptr<PendingRequest>& pending) {
     if (is_operational(routed))
         return pending->reply(operational_response(pending->request(), routed, options_.metrics));
     const StatePointer state = this->state();
-    const CheckedRequest checked = check_signature(*state, pending);
+    CheckedRequest checked = check_signature(*state, pending);
     if (!checked.refusal.empty()) {
         metrics_.rejected("signature");
         return pending->reply(state->service->problem(*checked.request, 403, checked.refusal));
     }
-    respond(state, pending, checked, false);
+    checked.payer = payer_of(*state, *pending);
+    respond(state, pending, std::move(checked), false);
+}
+
+Payer RequestHandler::payer_of(const AppState& state, const PendingRequest& pending) const {
+    if (!budgets_) return {};
+    std::string owner = state.service->owner_of(pending.request());
+    return owner.empty() ? Payer(client_of(pending.client())) : Payer(std::move(owner));
 }
 
 std::uint64_t RequestHandler::work_of_reading(const CheckedRequest& checked) const {
@@ -161,14 +168,14 @@ void RequestHandler::respond(const StatePointer& state,
     const api::Request& request = *checked.request;
     const std::uint64_t reading = correspondence_ready ? 0 : work_of_reading(checked);
     if (reading > expensive_reading)
-        if (const auto missing = budgets_->spend(client_of(pending->client()), 0, Clock::now());
+        if (const auto missing = budgets_->spend(checked.payer, 0, Clock::now());
             missing > missing.zero())
-            return reply_over_budget(service, pending, request, missing);
+            return reply_over_budget(service, pending, checked, missing);
     std::optional<SharedJobs::LookupGuard> lookup_guard(std::in_place, single_flight_);
     api::Plan planned = service.plan(request, *checked.routed, correspondence_ready);
     if (api::Response* response = std::get_if<api::Response>(&planned)) {
         if (reading > 0) {
-            budgets_->owe(client_of(pending->client()), reading, Clock::now());
+            budgets_->owe(checked.payer, reading, Clock::now());
             checked.is_charged = true;
         }
         return reply(pending, checked, std::move(*response));
@@ -176,9 +183,9 @@ void RequestHandler::respond(const StatePointer& state,
 
     auto& job = std::get<api::Job>(planned);
     std::uint64_t work = job.cost.work();
-    if (const auto missing = charge(pending->client(), job.key, reading, work);
+    if (const auto missing = charge(checked.payer, job.key, reading, work);
         missing > missing.zero())
-        return reply_over_budget(service, pending, request, missing);
+        return reply_over_budget(service, pending, checked, missing);
     checked.is_charged = checked.is_charged || (budgets_ && reading + work > 0);
     // A worker of the transport delivers the response, so that the threads of the pool are left to
     // generation. After a warm-up job, proceed() runs twice: when that job has completed and when
@@ -201,7 +208,7 @@ void RequestHandler::respond(const StatePointer& state,
     const std::optional<SharedJobs::Ticket> ticket = join(state, std::move(job), completed);
     lookup_guard.reset();
     if (!ticket) {
-        if (work > 0) budgets_->give_back(client_of(pending->client()), work, Clock::now());
+        if (work > 0) budgets_->give_back(checked.payer, work, Clock::now());
         metrics_.rejected("queue");
         return pending->reply(service.problem(request, 503,
                                               "too many jobs are waiting; try again in a moment",
@@ -236,14 +243,14 @@ void RequestHandler::reply(const std::shared_ptr<PendingRequest>& pending,
         response.cacheable = false;  // The expiry is to be checked for each client.
         api::bound_freshness(response, *checked.expires - seconds_since_1970());
     }
-    if (checked.is_charged) set_rate_limit_headers(pending->client(), response);
+    if (checked.is_charged) set_rate_limit_headers(checked.payer, response);
     pending->reply(std::move(response));
 }
 
-void RequestHandler::set_rate_limit_headers(const Address& client, api::Response& response) const {
+void RequestHandler::set_rate_limit_headers(const Payer& payer, api::Response& response) const {
     // The unit is a millisecond of work; budgets count microseconds.
     const std::uint64_t rate = options_.budget.rate, burst = options_.budget.burst;
-    const Budgets::Level level = budgets_->level(client_of(client), Clock::now());
+    const Budgets::Level level = budgets_->level(payer, Clock::now());
     const auto seconds = std::chrono::ceil<std::chrono::seconds>(level.until_full).count();
     api::set_header(response, "RateLimit-Policy",
                     "\"work\";q=" + std::to_string(burst / 1000) +
@@ -254,32 +261,32 @@ void RequestHandler::set_rate_limit_headers(const Address& client, api::Response
     response.cacheable = false;
 }
 
-std::chrono::microseconds RequestHandler::charge(const Address& client, const api::Key& key,
+std::chrono::microseconds RequestHandler::charge(const Payer& payer, const api::Key& key,
                                                  std::uint64_t reading, std::uint64_t& work) {
     if (!budgets_ || single_flight_.is_in_flight(key)) {
         work = 0;
-        if (budgets_) budgets_->owe(client_of(client), reading, Clock::now());
+        if (budgets_) budgets_->owe(payer, reading, Clock::now());
         return {};
     }
     // One charge for both: a job that costs more than the bucket holds needs a full bucket, which
     // it would never find after a separate charge for reading its body.
-    const auto missing = budgets_->spend(client_of(client), reading + work, Clock::now());
+    const auto missing = budgets_->spend(payer, reading + work, Clock::now());
     if (missing == missing.zero()) return missing;
-    budgets_->owe(client_of(client), reading, Clock::now());
+    budgets_->owe(payer, reading, Clock::now());
     return missing + std::chrono::microseconds(reading * 1'000'000 / options_.budget.rate);
 }
 
 void RequestHandler::reply_over_budget(const api::Service& service,
                                        const std::shared_ptr<PendingRequest>& pending,
-                                       const api::Request& request,
+                                       const CheckedRequest& checked,
                                        std::chrono::microseconds missing) {
     metrics_.rejected("budget");
     const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
     api::Response refusal = service.problem(
-        request, 429,
+        *checked.request, 429,
         "the work budget of this client is exhausted; Retry-After says when it suffices",
         {{"Retry-After", std::to_string(seconds)}});
-    set_rate_limit_headers(pending->client(), refusal);
+    set_rate_limit_headers(checked.payer, refusal);
     pending->reply(std::move(refusal));
 }
 

@@ -32,7 +32,7 @@ struct RequestHandlerOptions {
     std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
     bool metrics = true;              ///< true: the main transport serves /metrics
     std::string base_path;            ///< path prefix of all URLs of the service, or empty
-    BudgetOptions budget;             ///< per client, in units of api::Cost::work(); 429 beyond
+    BudgetOptions budget;             ///< per payer, in units of api::Cost::work(); 429 beyond
 };
 
 /// The state that a reload replaces while requests are served.
@@ -109,6 +109,7 @@ class RequestHandler {
         std::optional<std::int64_t> expires;  ///< seconds since 1970 at which its signature ends
         std::string refusal;                  ///< reason of a refusal; empty if accepted
         bool is_charged = false;              ///< its work was charged to a budget
+        Payer payer{};                        ///< whose budget that is
     };
     /// Finds the route of a request; paths of operational requests are served here, all others by
     /// the service.
@@ -146,7 +147,10 @@ class RequestHandler {
     /// returns  nothing if the queue or the list of waiters is full
     std::optional<SharedJobs::Ticket> join(const StatePointer& state, api::Job job,
                                            SharedJobs::OnComplete then);
-    /// Charges the cost of reading a request's body and of its job to the budget of a client. A job
+    /// Returns whose budget the work of a request is charged to: that of the owner of its token, if one with it was
+    /// let in a moment ago, so that owners behind one address do not share a budget.
+    [[nodiscard]] Payer payer_of(const AppState& state, const PendingRequest& pending) const;
+    /// Charges the cost of reading a request's body and of its job to the budget of a payer. A job
     /// in flight already is not charged. If the budget does not suffice for both, only the reading
     /// is charged.
     ///
@@ -154,17 +158,17 @@ class RequestHandler {
     /// work     cost of the job, microseconds of work; set to 0 if the job is in flight already or
     ///          there are no budgets
     /// returns  how long until the budget suffices; zero if it does
-    [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
+    [[nodiscard]] std::chrono::microseconds charge(const Payer& payer, const api::Key& key,
                                                    std::uint64_t reading, std::uint64_t& work);
     /// Responds with 429.
     ///
     /// missing  how long until the budget suffices
     void reply_over_budget(const api::Service& service,
                            const std::shared_ptr<PendingRequest>& pending,
-                           const api::Request& request, std::chrono::microseconds missing);
-    /// Sets the RateLimit headers from the remaining budget of a client, which makes the response
+                           const CheckedRequest& checked, std::chrono::microseconds missing);
+    /// Sets the RateLimit headers from the remaining budget of a payer, which makes the response
     /// private to this client.
-    void set_rate_limit_headers(const Address& client, api::Response& response) const;
+    void set_rate_limit_headers(const Payer& payer, api::Response& response) const;
     /// Responds to /livez, /readyz and /metrics.
     ///
     /// metrics  false: /metrics is 404 here

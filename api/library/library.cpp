@@ -13,6 +13,10 @@ namespace {
 /// Memory for species that requests use.
 constexpr std::size_t cache_bytes = std::size_t{64} << 20U;
 
+/// How long the owner of a token is known without asking, and of how many tokens.
+constexpr Seconds noted_for = 60;
+constexpr std::size_t most_noted = 4096;
+
 /// Returns the bytes of an entry: its text, and the structs and images that this describes.
 std::size_t size_of_entry(const std::shared_ptr<const AtlasEntry>& entry) {
     return 3 * entry->json.size() + sizeof(AtlasEntry);
@@ -41,6 +45,21 @@ bool Library::refresh() {
         serial_ = std::max(serial_, change.serial);
     }
     return true;
+}
+
+void Library::note_owner(const Digest& secret, const std::string& owner) {
+    const Seconds time = now();
+    const std::lock_guard lock(noted_mutex_);
+    if (noted_.size() >= most_noted)
+        std::erase_if(noted_, [&](const auto& one) { return one.second.at + noted_for < time; });
+    if (noted_.size() < most_noted) noted_.insert_or_assign(secret, Noted{owner, time});
+}
+
+std::string Library::noted_owner(const Digest& secret) {
+    const Seconds time = now();
+    const std::lock_guard lock(noted_mutex_);
+    const auto found = noted_.find(secret);
+    return found != noted_.end() && found->second.at + noted_for >= time ? found->second.owner : "";
 }
 
 Library::Found Library::find(std::string_view id) {

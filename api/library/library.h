@@ -57,6 +57,13 @@ class Library {
     /// throws  Unavailable, GenerationError; InvalidInput if it was purged meanwhile
     std::shared_ptr<const AtlasEntry> load(const LibraryName& name);
 
+    /// Notes whose a secret of a token is that was just found to be good.
+    void note_owner(const Digest& secret, const std::string& owner);
+
+    /// Returns the owner that was noted with a secret in the last minute, without asking the database; empty for
+    /// none. That a token was revoked since then is not known here, so this lets nobody in.
+    [[nodiscard]] std::string noted_owner(const Digest& secret);
+
     /// Returns the key of a job that no other job has: what one caller may see or write is shared with nobody.
     [[nodiscard]] std::string next_key() { return "library " + std::to_string(++jobs_); }
 
@@ -74,6 +81,12 @@ class Library {
     std::mutex refresh_mutex_;
     std::int64_t serial_ = 0;  ///< of the last change in `published_`; guarded by refresh_mutex_
     std::atomic<std::uint64_t> jobs_{0};
+    struct Noted {
+        std::string owner;
+        Seconds at = 0;
+    };
+    std::mutex noted_mutex_;
+    std::map<Digest, Noted> noted_;
 };
 
 /// Returns an entry of an atlas for a species of the library, under the id by which it is named.

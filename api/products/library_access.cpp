@@ -43,12 +43,19 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
                        std::string(name(scope)) + '"');
         return response;
     }
+    library.note_owner(secret->digest, token->owner);
     try {
         library.records().note_use(token->id, now);
     } catch (const Unavailable&) {
         // Who only reads need not wait for those who write.
     }
     return Caller{token->owner, token->scope, token->id};
+}
+
+std::string known_owner(Library& library, const Request& request) {
+    const std::optional<std::string_view> bearer = bearer_of(request);
+    const std::optional<Secret> secret = bearer ? read_secret(token_prefix, *bearer) : std::nullopt;
+    return secret ? library.noted_owner(secret->digest) : std::string();
 }
 
 std::optional<std::string_view> bearer_of(const Request& request) {

@@ -68,6 +68,10 @@ struct LibraryCall {
                                                            const Request& request, Access access,
                                                            Scope scope);
 
+/// Returns the owner of the token of a request, if authenticated() has let one with it in during the last minute; empty
+/// otherwise. Does not block, and lets nobody in.
+[[nodiscard]] std::string known_owner(Library& library, const Request& request);
+
 /// Returns what stands after "Bearer" in the Authorization header; nothing if the header is another, or there are
 /// several.
 [[nodiscard]] std::optional<std::string_view> bearer_of(const Request& request);

@@ -24,62 +24,62 @@ Budgets::Budgets(const BudgetOptions& options)
       capacity_(in_millionths(std::max<std::uint64_t>(options.burst, 1))),
       most_clients_(std::max<std::size_t>(options.most_clients, 1)) {}
 
-Budgets::Bucket Budgets::bucket_of(const Address& client, std::int64_t now) const {
-    const auto found = buckets_.find(client);
+Budgets::Bucket Budgets::bucket_of(const Payer& payer, std::int64_t now) const {
+    const auto found = buckets_.find(payer);
     if (found == buckets_.end()) return {capacity_, now, now};
     Bucket bucket = found->second;
     fill(bucket, now);
     return bucket;
 }
 
-void Budgets::take(const Address& client, Bucket bucket, std::int64_t amount) {
+void Budgets::take(const Payer& payer, Bucket bucket, std::int64_t amount) {
     bucket.level -= amount;
-    auto found = buckets_.find(client);
+    auto found = buckets_.find(payer);
     if (found == buckets_.end()) {
         if (buckets_.size() >= most_clients_) evict_one();
-        found = buckets_.emplace(client, bucket).first;
+        found = buckets_.emplace(payer, bucket).first;
     } else {
-        by_full_at_.erase({found->second.full_at, client});
+        by_full_at_.erase({found->second.full_at, payer});
         found->second = bucket;
     }
     index(found);
 }
 
-std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t work, Time time) {
+std::chrono::microseconds Budgets::spend(const Payer& payer, std::uint64_t work, Time time) {
     const std::int64_t amount = in_millionths(work);
     const std::lock_guard lock(mutex_);
-    const Bucket bucket = bucket_of(client, advance(time));
+    const Bucket bucket = bucket_of(payer, advance(time));
     const std::int64_t enough = std::min(amount, capacity_);
     if (bucket.level < enough)
         return std::chrono::microseconds(ceil_div(enough - bucket.level, rate_));
-    if (amount > 0) take(client, bucket, amount);
+    if (amount > 0) take(payer, bucket, amount);
     return {};
 }
 
-void Budgets::owe(const Address& client, std::uint64_t work, Time time) {
+void Budgets::owe(const Payer& payer, std::uint64_t work, Time time) {
     if (work == 0) return;
     const std::lock_guard lock(mutex_);
-    Bucket bucket = bucket_of(client, advance(time));
+    Bucket bucket = bucket_of(payer, advance(time));
     // A level never falls below that after the largest job, so that its millionths do not overflow.
-    take(client, bucket, std::min(in_millionths(work), bucket.level + in_millionths(most_work)));
+    take(payer, bucket, std::min(in_millionths(work), bucket.level + in_millionths(most_work)));
 }
 
-void Budgets::give_back(const Address& client, std::uint64_t work, Time time) {
+void Budgets::give_back(const Payer& payer, std::uint64_t work, Time time) {
     const std::lock_guard lock(mutex_);
-    const auto found = buckets_.find(client);
+    const auto found = buckets_.find(payer);
     if (found == buckets_.end()) return;
-    by_full_at_.erase({found->second.full_at, client});
+    by_full_at_.erase({found->second.full_at, payer});
     fill(found->second, advance(time));
     found->second.level = std::min(capacity_, found->second.level + in_millionths(work));
     index(found);
 }
 
-Budgets::Level Budgets::level(const Address& client, Time time) const {
+Budgets::Level Budgets::level(const Payer& payer, Time time) const {
     using std::chrono::floor, std::chrono::microseconds;
     const std::lock_guard lock(mutex_);
     const std::int64_t now = std::max(now_, floor<microseconds>(time.time_since_epoch()).count());
     Bucket bucket{capacity_, now, now};
-    if (const auto found = buckets_.find(client); found != buckets_.end())
+    if (const auto found = buckets_.find(payer); found != buckets_.end())
         fill(bucket = found->second, now);
     return {static_cast<std::uint64_t>(std::max<std::int64_t>(bucket.level, 0) / millionths),
             microseconds(ceil_div(capacity_ - bucket.level, rate_))};

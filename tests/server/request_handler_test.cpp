@@ -13,9 +13,13 @@
 #include <thread>
 #include <utility>
 
+#include "api/library/library.h"
+#include "api/library/tokens.h"
 #include "core/atlas/atlas.h"
 #include "server/operations/machine.h"
+#include "server/records/open.h"
 #include "tests/server/raw_client.h"
+#include "tests/server/records/contract.h"
 
 namespace sporeprint::server::request_handler_test {
 namespace {
@@ -75,8 +79,11 @@ class TestRequest final : public PendingRequest {
 /// A request handler with the real service, called without sockets.
 struct Harness {
     explicit Harness(RequestHandlerOptions options = {},
-                     std::shared_ptr<const Signatures> signatures = nullptr)
-        : request_handler({service, std::move(signatures)}, metrics, log, options) {
+                     std::shared_ptr<const Signatures> signatures = nullptr,
+                     std::shared_ptr<api::Library> library = nullptr)
+        : service(std::make_shared<api::Service>(built_in_atlas(), api::ServiceOptions(),
+                                                 std::move(library))),
+          request_handler({service, std::move(signatures)}, metrics, log, options) {
         handlers = request_handler.handlers();
         request_handler.open();
     }
@@ -112,8 +119,7 @@ struct Harness {
         return pending->response(timeout, reason);
     }
 
-    std::shared_ptr<api::Service> service =
-        std::make_shared<api::Service>(built_in_atlas(), api::ServiceOptions());
+    std::shared_ptr<api::Service> service;
     Metrics metrics{"1.2.3", "7"};
     Log log{LogLevel::off};
     RequestHandler request_handler;
@@ -340,6 +346,42 @@ TEST(RequestHandler, ChargesASharedJobOnceAndNoJobThatCouldNotBegin) {
     Harness full(options);
     for (int i = 0; i < 3; ++i)
         EXPECT_EQ(full.ask(heavy + "1").status, 503) << "the charge is returned";
+}
+
+TEST(RequestHandler, ChargesOwnersOfTheLibraryApartFromTheAddressTheyShare) {
+    const test::TemporaryFolder folder;
+    auto library = std::make_shared<api::Library>(open_records((folder / "library.sqlite").string()),
+                                                  [] { return api::Seconds{1'800'000'000}; });
+    std::vector<std::string> tokens;
+    for (const char* const owner : {"kaja", "sami"}) {
+        ASSERT_TRUE(library->records().add_owner(owner, 1));
+        const api::Secret secret = api::new_secret(api::token_prefix);
+        ASSERT_EQ(
+            library->records().add_token(api::stored_token(secret, owner, "", api::Scope::read, 1)),
+            api::WriteResult::done);
+        tokens.push_back(secret.text);
+    }
+    RequestHandlerOptions options;
+    options.budget = {.rate = 1, .burst = 7000};  // two requests to the library
+    Harness harness(options, nullptr, library);
+    const auto ask = [&](const std::string& token) {
+        return harness.ask("/v1/library/quota", "GET", 5min,
+                           PendingRequest::CancelReason::timed_out,
+                           {{"Authorization", "Bearer " + token}});
+    };
+    // Who an owner is has to be found out once, at the cost of the address.
+    EXPECT_EQ(ask(tokens[0]).status, 200);
+    EXPECT_EQ(ask(tokens[1]).status, 200);
+    EXPECT_EQ(ask("spk_").status, 429) << "the address has spent its budget";
+    EXPECT_EQ(ask(tokens[0]).status, 200);
+    EXPECT_EQ(ask(tokens[0]).status, 200);
+    EXPECT_EQ(ask(tokens[0]).status, 429);
+    const api::Response other = ask(tokens[1]);
+    EXPECT_EQ(other.status, 200) << "another owner behind the same address";
+    EXPECT_EQ(header(other, "RateLimit").substr(0, 12), "\"work\";r=3;t");
+    // What needs no job is free for everybody.
+    EXPECT_EQ(ask(tokens[0]).status, 429);
+    EXPECT_EQ(harness.ask("/v1/species").status, 200);
 }
 
 TEST(RequestHandler, ChargesForReadingABodyThatIsRefused) {

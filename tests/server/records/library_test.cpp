@@ -140,6 +140,27 @@ TEST_P(LibraryRoutes, ADraftBecomesAVersionThatGrows) {
     EXPECT_FALSE(glb.cacheable) << "its owner may withdraw it";
 }
 
+TEST_P(LibraryRoutes, WhoPaysIsKnownForAMinuteAfterATokenWasLetIn) {
+    const auto owner_of = [&](const std::string& token) {
+        Request request{"GET", "/v1/species", {{"Authorization", "Bearer " + token}}, {}, "test-1"};
+        return service_->owner_of(request);
+    };
+    const std::string token = tokens_.at("kaja read");
+    EXPECT_EQ(owner_of(token), "") << "nobody has looked";
+    ASSERT_EQ(ask("GET", "/v1/library/quota", token).status, 200);
+    EXPECT_EQ(owner_of(token), "kaja");
+    EXPECT_EQ(owner_of(tokens_.at("sami read")), "");
+    std::string wrong = token;
+    wrong.back() = wrong.back() == 'A' ? 'B' : 'A';
+    EXPECT_EQ(ask("GET", "/v1/library/quota", wrong).status, 401);
+    EXPECT_EQ(owner_of(wrong), "");
+    EXPECT_EQ(owner_of("spk_"), "");
+    now_ += 60;
+    EXPECT_EQ(owner_of(token), "kaja");
+    now_ += 1;
+    EXPECT_EQ(owner_of(token), "");
+}
+
 TEST_P(LibraryRoutes, WithoutANumberTheNewestVersionIsMeant) {
     publish("red_bolete");
     const std::string open = "/v1/mushrooms/~kaja.red_bolete.json?age=0.5";
