@@ -218,6 +218,13 @@ test("by keyboard alone from the first nine to a saved species, which the servic
     await page.keyboard.press("Home");
     await after9(page, () => page.keyboard.press("Enter"));
     assert.equal(await sentence(page), "Nine children of Cep and Fly agaric");
+    // Of the children's couple nothing is left once its branch is taken off.
+    const rows = await page.locator(".row-of-tree").count();
+    await page.keyboard.press("ArrowDown");
+    page.once("dialog", (dialog) => dialog.accept());
+    await page.keyboard.press("Delete");
+    await page.waitForFunction((before) => document.querySelectorAll(".row-of-tree").length < before, rows);
+    assert.equal(await sentence(page), "Nine children of Cep and Fly agaric");
     assertQuiet(log);
 });
 
@@ -229,6 +236,9 @@ test("the second parent can be what can be crossed with the first, also of the l
     await page.locator("#save-token").fill(token);
     await page.locator("#save-library button").click();
     await page.locator("#save-stored", { hasText: `~me.${name}@1 is published` }).waitFor();
+    const address = await page.locator("#save-stored .address").getAttribute("href");
+    assert.equal((await fetch(new URL(address, `${base}/`))).status, 200, address);
+    await page.locator("#save-dialog").screenshot({ path: "build/screenshots/breed_saved.png" });
     await page.locator("#save-close").click();
     const { species } = await (await fetch(`${base}/v1/library?q=${name}`)).json();
     assert.deepEqual([species[0].parent, species[0].parent2], ["boletus_edulis", "amanita_muscaria"]);

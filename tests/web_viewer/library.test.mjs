@@ -80,7 +80,7 @@ test("a picture becomes a published species and its address, by keyboard alone",
     await page.keyboard.type("cep_by_keys");
     await tabTo(page, "library-publish");
     await page.keyboard.press("Enter");
-    const link = page.locator("#library-address");
+    const link = page.locator("#library-published .address");
     await link.waitFor();
     const address = await link.evaluate((anchor) => anchor.href);
     assert.equal(address, `${base}/v1/mushrooms/~me.cep_by_keys@1.glb`);
@@ -142,13 +142,13 @@ test("species of the library are listed and opened again; a wrong token is named
     await page.locator("#library-desk").waitFor();
     await save(page, "cep_again");
     await page.locator("#library-publish").click();
-    await page.locator("#library-address").waitFor();
+    await page.locator("#library-published .address").waitFor();
     // A reload goes on with the same species of the library.
     await page.reload();
     await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
     await page.locator("#tab-library").click();
     assert.equal(await page.locator("#library-name").inputValue(), "cep_again");
-    assert.match(await page.locator("#library-address").getAttribute("href"), /~me\.cep_again@1\.glb$/);
+    assert.match(await page.locator("#library-published .address").getAttribute("href"), /~me\.cep_again@1\.glb$/);
     await page.locator("[data-library='~me.cep_again']").click();
     await page.locator("#library-state", { hasText: "~me.cep_again · draft" }).waitFor();
     assert.equal(await page.locator("#library-name").inputValue(), "cep_again");
@@ -353,7 +353,7 @@ test("touch alone goes from a photograph to a published species", async (t) => {
     await name.tap();
     await name.fill("russula_by_touch");
     await page.locator("#library-publish").tap();
-    await page.locator("#library-address").waitFor();
+    await page.locator("#library-published .address").waitFor();
     const model = await fetch(`${base}/v1/mushrooms/~me.russula_by_touch@1.glb?lod=3&textures=none`);
     assert.equal(model.status, 200);
     await model.arrayBuffer();

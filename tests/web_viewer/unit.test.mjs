@@ -1657,6 +1657,25 @@ test("the family tree has a row for each couple, and branches in lanes of their 
     ]);
 });
 
+test("a branch is taken off the tree, but for what others come from", () => {
+    const names = (pedigree) => page.treeRows(pedigree).map(({ couple }) => pedigree.coupleName(couple));
+    const { pedigree, first, second, alone, back } = threeGenerations();
+    const { species, couples } = pedigree.removeBranch(alone);
+    assert.deepEqual(couples.sort(), [alone.key, back.key].sort());
+    assert.deepEqual(species, [second]);
+    assert.deepEqual(names(pedigree), ["Cep × Fly agaric", "F1·3 × Fly agaric"]);
+    assert.equal(pedigree.get(second).birth, undefined);
+    // A child of the branch is a mate elsewhere: its parents stay, with all that they come from.
+    const crossed = threeGenerations();
+    const other = crossed.pedigree.addChild({ a: "amanita_muscaria", b: "amanita_muscaria", genes: page.firstGenes }).key;
+    const third = crossed.pedigree.addChild({ a: other, b: other, genes: page.firstGenes }).key;
+    const deep = crossed.pedigree.addCouple(third, crossed.first, page.firstGenes);
+    const gone = crossed.pedigree.removeBranch(crossed.pedigree.couple(page.keyOfCouple("boletus_edulis", "amanita_muscaria")));
+    assert.ok(!gone.species.includes(first));
+    assert.deepEqual(names(crossed.pedigree).sort(), ["Cep × Fly agaric", "F1·1 alone", "F2·1 × F1·3", "Fly agaric alone"].sort());
+    assert.ok(crossed.pedigree.line([deep.a, deep.b]).every(({ birth }) => crossed.pedigree.couple(page.keyOfCouple(birth.a, birth.b))));
+});
+
 test("children of species of the service have an address, others are posted whole", () => {
     const { pedigree, first, back } = threeGenerations();
     const { birth } = pedigree.get(first);

@@ -5,8 +5,7 @@ import { byId, make } from "./dom";
 /** How long a notice can be read, milliseconds. */
 const noticeMs = 6000;
 
-// What screen readers have read already is not read again.
-const notice = make("p", { id: "notice", class: "notice", "aria-hidden": true });
+let notice: HTMLElement | undefined;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
 /** Replaces the text of the status line: what happened is seen elsewhere on the page. */
@@ -17,8 +16,11 @@ export function announce(text: string): void {
 /** Announces what is seen nowhere else, and shows it for some seconds. */
 export function notify(text: string): void {
     announce(text);
-    notice.textContent = text;
-    document.body.append(notice);
     clearTimeout(timer);
-    timer = setTimeout(() => notice.remove(), noticeMs);
+    notice?.remove();
+    // What screen readers have read already is not read again.
+    const shown = make("p", { id: "notice", class: "notice", "aria-hidden": true }, text);
+    notice = shown;
+    document.body.append(shown);
+    timer = setTimeout(() => shown.remove(), noticeMs);
 }

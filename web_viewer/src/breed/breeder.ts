@@ -8,7 +8,7 @@ import { hasLibrary } from "../library_list";
 import { disposeModel, parseModel } from "../model";
 import { ProblemBox } from "../problem_box";
 import { groupsOf, type Field, type Schema, type Value } from "../schema";
-import { announce } from "../status_line";
+import { announce, notify } from "../status_line";
 import { ChildGrid } from "./child_grid";
 import { FamilyTree, pictureElement } from "./family_tree";
 import { LockList, locksOf } from "./locks";
@@ -125,7 +125,12 @@ export class Breeder {
                 this.fetchAhead();
             },
         });
-        this.tree = new FamilyTree(byId("tree"), this.pedigree, (couple) => void this.show(couple, "push"));
+        this.tree = new FamilyTree(
+            byId("tree"),
+            this.pedigree,
+            (couple) => void this.show(couple, "push"),
+            (couple) => void this.removeBranch(couple),
+        );
         this.locks = new LockList(byId("locks"), (lock) => this.change({ lock }));
         for (const view of viewNames) {
             const button = make("button", { type: "button", "data-view": view }, viewLabels[view]);
@@ -246,6 +251,9 @@ export class Breeder {
         });
         byId("alone").addEventListener("click", () => {
             if (this.current) this.pair(this.current.a, this.current.a);
+        });
+        byId("remove-branch").addEventListener("click", () => {
+            if (this.current) void this.removeBranch(this.current);
         });
         byId("clear-tree").addEventListener("click", () => void this.clear());
         byId("save-current").addEventListener("click", () => {
@@ -495,6 +503,21 @@ export class Breeder {
         const keys = new Set([couple.a, couple.b, ...line.flatMap(({ key, birth }) => [key, birth!.a, birth!.b])]);
         const couples = [couple, ...line.map(({ birth }) => pedigree.couple(keyOfCouple(birth!.a, birth!.b))!)];
         void this.store.save([...keys].map((key) => pedigree.get(key)), couples);
+    }
+
+    private async removeBranch(couple: Couple): Promise<void> {
+        const { pedigree, current } = this;
+        const next = pedigree.origin(couple) ?? pedigree.offspring(undefined).find(({ key }) => key !== couple.key);
+        if (!current || !next) return notify("It is all that the tree has: Clear begins anew");
+        const after = pedigree.offspring(couple).length > 0 ? " and all couples that come of it" : "";
+        const question = `Take ${pedigree.coupleName(couple)}${after} off the tree? Species that you have saved stay.`;
+        if (!confirm(question)) return;
+        const { species, couples } = pedigree.removeBranch(couple);
+        if (!couples.includes(couple.key)) notify("Other branches come of this couple, so that it stays");
+        for (const key of species) this.texts.delete(key);
+        await this.store.remove(species, couples);
+        if (pedigree.couple(current.key)) this.showWords();
+        else await this.show(next, "push");
     }
 
     private async clear(): Promise<void> {

@@ -30,6 +30,7 @@ export class FamilyTree {
         private readonly host: HTMLElement,
         private readonly pedigree: Pedigree,
         private readonly chosen: (couple: Couple) => void,
+        private readonly removed: (couple: Couple) => void,
     ) {
         host.addEventListener("keydown", (event) => this.key(event));
     }
@@ -133,6 +134,7 @@ export class FamilyTree {
             End: this.items.length - 1,
         };
         if (event.key === "Enter" || event.key === " ") this.chosen(row.couple);
+        else if (event.key === "Delete") this.removed(row.couple);
         else if (event.key in places) {
             const item = this.items[places[event.key]!];
             if (!item) return event.preventDefault();

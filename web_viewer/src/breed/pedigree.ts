@@ -186,6 +186,28 @@ export class Pedigree {
         return [...found.values()];
     }
 
+    /** Takes a couple and all that come from it off the tree, but for what other branches come from; returns the keys of
+     *  what is gone. */
+    removeBranch(couple: Couple): { species: string[]; couples: string[] } {
+        const branch = new Set<string>();
+        const visit = (one: Couple): void => {
+            branch.add(one.key);
+            this.offspring(one).forEach(visit);
+        };
+        visit(couple);
+        const others = [...this.couples.values()].filter(({ key }) => !branch.has(key));
+        const kept = this.line(others.flatMap(({ a, b }) => [a, b]));
+        const couplesKept = new Set(kept.map(({ birth }) => keyOfCouple(birth!.a, birth!.b)));
+        const couples = [...branch].filter((key) => !couplesKept.has(key));
+        for (const key of couples) this.couples.delete(key);
+        const keysKept = new Set(kept.map(({ key }) => key));
+        const species = [...this.species.values()]
+            .filter(({ key, birth }) => birth && !keysKept.has(key) && branch.has(keyOfCouple(birth.a, birth.b)))
+            .map(({ key }) => key);
+        for (const key of species) this.species.delete(key);
+        return { species, couples };
+    }
+
     clear(): void {
         this.couples.clear();
         for (const [key, { birth }] of this.species) if (birth) this.species.delete(key);

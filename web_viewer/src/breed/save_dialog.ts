@@ -1,8 +1,9 @@
 // The dialog that saves a child: as a file, as the designer's draft, in the library of the service.
-import { byId } from "../dom";
+import { byId, make } from "../dom";
 import { forgetDraft, loadDraft, saveDraft } from "../designer/draft";
 import { startOfDrawing } from "../designer/gesture";
 import { Library, nameLike, namePattern, tokenIn, type StoredSpecies } from "../designer/library";
+import { publishedAddress } from "../designer/library_entry";
 import { storedToken, storeLink, storeToken } from "../designer/library_session";
 import { saveFile } from "../file_actions";
 import { asRequestFailed, send } from "../http";
@@ -15,6 +16,14 @@ export interface Saved {
     /** The whole document. */
     text: string;
     picture: string | undefined;
+}
+
+/** Returns the address of a published species, and links to the pages that go on with it. */
+function whereTo(stored: StoredSpecies): HTMLElement[] {
+    const id = `${stored.id}@${stored.newest}`;
+    const open = make("a", { href: `./?species=${id}` }, "Open it in the viewer");
+    const edit = make("a", { href: `editor#open=${id}` }, "Open it in the designer");
+    return [...publishedAddress(stored), open, edit];
 }
 
 export class SaveDialog {
@@ -138,7 +147,7 @@ export class SaveDialog {
             stored = await new Library(token).publish(stored.id, stored.draft ?? "", "");
         const state = stored.newest > 0 ? `${stored.id}@${stored.newest} is published` : `${stored.id} is a draft`;
         this.stored.hidden = false;
-        this.stored.textContent = `${state}, of ${owner}.`;
+        this.stored.replaceChildren(`${state}, of ${owner}.`, ...(stored.newest > 0 ? whereTo(stored) : []));
         byId("save-token-row").hidden = true;
         announce(`Saved: ${state}.`);
     }

@@ -26,27 +26,34 @@ export class TreeStore {
 
     /** Stores what is new or was changed. */
     async save(species: readonly Species[], couples: readonly Couple[]): Promise<void> {
-        await this.write((put) => {
-            for (const one of species) put("species", one);
-            for (const one of couples) put("couples", one);
+        await this.write((of) => {
+            for (const one of species) of("species").put(one);
+            for (const one of couples) of("couples").put(one);
+        });
+    }
+
+    /** Forgets what has these keys. */
+    async remove(species: readonly string[], couples: readonly string[]): Promise<void> {
+        await this.write((of) => {
+            for (const key of species) of("species").delete(key);
+            for (const key of couples) of("couples").delete(key);
         });
     }
 
     /** Forgets everything. */
     async clear(): Promise<void> {
-        await this.write(undefined);
+        await this.write((of) => {
+            for (const name of Object.values(stores)) of(name).clear();
+        });
     }
 
-    private async write(
-        act: ((put: (name: StoreName, value: Species | Couple) => void) => void) | undefined,
-    ): Promise<void> {
+    private async write(act: (of: (name: StoreName) => IDBObjectStore) => void): Promise<void> {
         const base = await this.open;
         if (!base) return;
         await new Promise<void>((resolve) => {
             const transaction = base.transaction(Object.values(stores), "readwrite");
             transaction.oncomplete = transaction.onabort = transaction.onerror = () => resolve();
-            if (act) act((name, value) => transaction.objectStore(name).put(value));
-            else for (const name of Object.values(stores)) transaction.objectStore(name).clear();
+            act((name) => transaction.objectStore(name));
         });
     }
 }

@@ -2,7 +2,7 @@
 import { make } from "../dom";
 import type { LibrarySpecies } from "../library_list";
 import { announce } from "../status_line";
-import type { Share } from "./library";
+import type { Share, StoredSpecies } from "./library";
 import { stateOf } from "./species_chooser";
 
 export interface EntryActions {
@@ -57,6 +57,16 @@ export async function copyText(text: string, what: string, button: HTMLElement):
     } catch {
         announce(`${what} is ${text}`);
     }
+}
+
+/** Returns the address of the GLB of a published version, as a link and with a button that copies it. */
+export function publishedAddress({ links }: StoredSpecies): HTMLElement[] {
+    // Without its slash the address is relative, so that it is valid under any prefix.
+    const path = (links.model ?? "").replace(/^.*?\/(v1\/)/, "$1");
+    const address = new URL(path, document.baseURI).href;
+    const copy = make("button", { type: "button" }, "Copy address");
+    copy.addEventListener("click", () => void copyText(address, "The address", copy));
+    return [make("a", { href: path, class: "address" }, address), copy];
 }
 
 function actionButton(label: string, act: () => void, title = "", name = ""): HTMLButtonElement {

@@ -12,7 +12,7 @@ import {
     type Quota,
     type StoredSpecies,
 } from "./library";
-import { copyText, libraryEntry, purgeQuestion, type EntryActions } from "./library_entry";
+import { libraryEntry, publishedAddress, purgeQuestion, type EntryActions } from "./library_entry";
 import {
     forgetToken,
     storedToken,
@@ -409,18 +409,9 @@ export class LibraryPanel implements OwnSpecies {
         await this.showList();
     }
 
-    private showPublished({ id, newest, links }: StoredSpecies): void {
-        // Without its slash the address is relative, so that it is valid under any prefix.
-        const path = (links.model ?? "").replace(/^.*?\/(v1\/)/, "$1");
-        const address = new URL(path, document.baseURI).href;
-        const copy = make("button", { type: "button" }, "Copy address");
-        copy.addEventListener("click", () => void copyText(address, "The address", copy));
-        this.published.replaceChildren(
-            `${id}@${newest}: `,
-            make("a", { href: path, id: "library-address" }, address),
-            " ",
-            copy,
-        );
+    private showPublished(stored: StoredSpecies): void {
+        const [link, copy] = publishedAddress(stored);
+        this.published.replaceChildren(`${stored.id}@${stored.newest}: `, link!, " ", copy!);
         this.published.hidden = false;
     }
 
