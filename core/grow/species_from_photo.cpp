@@ -323,8 +323,8 @@ std::vector<TraceWarning> warnings_of(const SpeciesFromPhoto& found) {
                                              " of its height; the species has their mean."});
     if (found.traced.method == trace::TraceMethod::straightened)
         warnings.push_back({"method",
-                            "Its stem would fold as it is bent on the photograph, so the "
-                            "species bends less."});
+                            "Its stem would fold where its line on the photograph bends most, so "
+                            "the species has a straighter one."});
     if (found.traced.method == trace::TraceMethod::simplified)
         warnings.push_back({"method",
                             "Its outline would cross itself as it is on the photograph, so "
