@@ -19,7 +19,7 @@ void draw(benchmark::State& state, int side, const std::function<void(const Extr
     PictureParams params;
     params.width = params.height = side;
     Extras extras;
-    extras.write = [&](const GlbScene& scene) -> Body {
+    extras.write = [&](const GlbScene& scene, const Parallel&) -> Body {
         for (auto _ : state) benchmark::DoNotOptimize(rendered_png(scene, params));
         return {};
     };
