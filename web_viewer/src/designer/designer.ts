@@ -1185,7 +1185,7 @@ export class Designer {
         byId("gesture-errors").replaceChildren();
         if (!error) return;
         const text = error.items.map(({ detail }) => detail).join(" ") || error.message;
-        line.textContent = text;
+        line.textContent = line.hidden ? "" : text;
         if (this.photograph) this.say("photo", text);
         announce(text);
     }
