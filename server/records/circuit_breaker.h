@@ -1,4 +1,4 @@
-// Keeps callers from waiting for a service that does not answer: one of them finds out, the others are refused.
+// Keeps callers from waiting for a service that does not respond: one of them finds out, the others are refused.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace sporeprint::server {
 
-/// A circuit breaker. It is closed while the service answers; once a caller has waited in vain it is open, and from
+/// A circuit breaker. It is closed while the service responds; once a caller has waited in vain it is open, and from
 /// then on one caller in each interval may try until one has succeeded. All functions may be called on any thread.
 class CircuitBreaker {
   public:
@@ -24,7 +24,7 @@ class CircuitBreaker {
         return true;
     }
 
-    /// Says that the service has answered.
+    /// Says that the service has responded.
     void close() {
         const std::lock_guard lock(mutex_);
         is_open_ = false;

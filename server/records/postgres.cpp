@@ -44,8 +44,8 @@ constexpr int most_attempts = 5;
 /// ends a statement earlier, so that the second is for one that hangs.
 constexpr std::chrono::seconds most_wait(5), most_execution(15);
 
-/// How long a statement has no result before the database is asked whether it answers at all, and how often while a
-/// database does not answer that is tried again. Without both, everyone who needs the library would wait as long as a
+/// How long a statement has no result before it is checked whether the database responds at all, and how often while a
+/// database does not respond that is tried again. Without both, everyone who needs the library would wait as long as a
 /// statement may, in the threads that grow everything else.
 constexpr std::chrono::seconds most_silence(1), between_attempts(3);
 
@@ -231,8 +231,8 @@ class PostgresConnection final : public SqlConnection {
         return {"2", "10000", "15", "sporeprint", address_.c_str(), "UTF8", nullptr};
     }
 
-    /// Returns whether the database answers somebody who connects. That takes as long as a connection may.
-    [[nodiscard]] bool answers() const {
+    /// Returns whether the database responds to somebody who connects. That takes as long as a connection may.
+    [[nodiscard]] bool responds() const {
         return PQpingParams(keywords.data(), values().data(), 1) != PQPING_NO_RESPONSE;
     }
 
@@ -260,7 +260,7 @@ class PostgresConnection final : public SqlConnection {
                 std::min<std::chrono::milliseconds>(left, most_silence);
             const int woken = ::poll(&ready, 1, static_cast<int>(pause.count()));
             if (woken < 0 && errno != EINTR) fail_broken();
-            if (woken == 0 && !answers()) fail_broken("it does not answer");
+            if (woken == 0 && !responds()) fail_broken("it does not respond");
             if (PQconsumeInput(connection_.get()) == 0) fail_broken();
         }
     }
@@ -389,7 +389,7 @@ class PostgresDatabase final : public SqlDatabase {
             bool is_committing = false;
             const Clock::time_point began = Clock::now();
             if (!breaker_.may_try(began))
-                unavailable("it did not answer; it is tried again every " +
+                unavailable("it did not respond; it is tried again every " +
                             std::to_string(between_attempts.count()) + " s");
             const auto abandon = [&](bool is_broken) {
                 if (!connection) return;

@@ -350,8 +350,9 @@ TEST(RequestHandler, ChargesASharedJobOnceAndNoJobThatCouldNotBegin) {
 
 TEST(RequestHandler, ChargesOwnersOfTheLibraryApartFromTheAddressTheyShare) {
     const test::TemporaryFolder folder;
-    auto library = std::make_shared<api::Library>(open_records((folder / "library.sqlite").string()),
-                                                  [] { return api::Seconds{1'800'000'000}; });
+    auto library =
+        std::make_shared<api::Library>(open_records((folder / "library.sqlite").string()),
+                                       [] { return api::Seconds{1'800'000'000}; });
     std::vector<std::string> tokens;
     for (const char* const owner : {"kaja", "sami"}) {
         ASSERT_TRUE(library->records().add_owner(owner, 1));

@@ -13,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = CircuitBreaker::Clock;
 
-TEST(CircuitBreaker, EveryCallerMayTryWhileTheServiceAnswers) {
+TEST(CircuitBreaker, EveryCallerMayTryWhileTheServiceResponds) {
     CircuitBreaker breaker(3s);
     const Clock::time_point now = Clock::now();
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(breaker.may_try(now));

@@ -196,13 +196,13 @@ export class Pedigree {
         };
         visit(couple);
         const others = [...this.couples.values()].filter(({ key }) => !branch.has(key));
-        const kept = this.line(others.flatMap(({ a, b }) => [a, b]));
-        const couplesKept = new Set(kept.map(({ birth }) => keyOfCouple(birth!.a, birth!.b)));
-        const couples = [...branch].filter((key) => !couplesKept.has(key));
+        const line = this.line(others.flatMap(({ a, b }) => [a, b]));
+        const couplesOfLine = new Set(line.map(({ birth }) => keyOfCouple(birth!.a, birth!.b)));
+        const couples = [...branch].filter((key) => !couplesOfLine.has(key));
         for (const key of couples) this.couples.delete(key);
-        const keysKept = new Set(kept.map(({ key }) => key));
+        const keysOfLine = new Set(line.map(({ key }) => key));
         const species = [...this.species.values()]
-            .filter(({ key, birth }) => birth && !keysKept.has(key) && branch.has(keyOfCouple(birth.a, birth.b)))
+            .filter(({ key, birth }) => birth && !keysOfLine.has(key) && branch.has(keyOfCouple(birth.a, birth.b)))
             .map(({ key }) => key);
         for (const key of species) this.species.delete(key);
         return { species, couples };

@@ -14,7 +14,7 @@ export function titleOfFile(name: string): string | undefined {
         .replace(/\.[^.]*$/, "")
         .split(/[^\p{L}\p{N}]+/u)
         .filter((word) => word !== "");
-    const isTold = words.some((word) => /\p{L}{3}/u.test(word) && !nameless.test(word.replace(/\d+$/, "")));
+    const saysSomething = words.some((word) => /\p{L}{3}/u.test(word) && !nameless.test(word.replace(/\d+$/, "")));
     const title = words.join(" ").slice(0, longest).trim();
-    return isTold ? title.charAt(0).toUpperCase() + title.slice(1) : undefined;
+    return saysSomething ? title.charAt(0).toUpperCase() + title.slice(1) : undefined;
 }
