@@ -162,7 +162,9 @@ std::string beginning(std::string_view text, std::size_t most) {
 template <std::size_t Most>
 Text<Most> crossed_name(const Text<Most>& a, const Text<Most>& b) {
     constexpr std::string_view sign = " × ";
-    if (a == b) return a;
+    // A name that one parent lacks would be that of the other one alone.
+    if (a == b || a.view().empty()) return a;
+    if (b.view().empty()) return b;
     const auto first = [&](const Text<Most>& name) {
         return name.view().substr(0, name.view().find(sign));
     };

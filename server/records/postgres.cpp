@@ -414,7 +414,10 @@ class PostgresDatabase final : public SqlDatabase {
                 abandon(failure.is_broken);
                 if (failure.is_broken) close_idle();
                 const bool was_silent = failure.is_broken && Clock::now() - began >= long_wait;
-                if (was_silent) breaker_.open(Clock::now());
+                if (was_silent)
+                    breaker_.open(Clock::now());
+                else if (!failure.is_broken)
+                    breaker_.close();  // It has responded, if with a refusal.
                 if (begin && is_committing && failure.is_broken)
                     unavailable("the connection broke during a commit (" + failure.message +
                                 "), so it is not known whether it was committed");

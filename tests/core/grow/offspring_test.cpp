@@ -74,6 +74,9 @@ TEST(Offspring, IsTheSameForEqualParametersOnly) {
     EXPECT_NE(offspring(a, b, {.seed = 8}).species.id, child.id);
     EXPECT_NE(offspring(a, b, {.seed = 7, .mutation = 0.21}).species.id, child.id);
     EXPECT_EQ(child.facts.common_name.view(), "Fly agaric × Cep");
+    Species nameless = a;
+    nameless.facts.scientific_name = Text<64>();
+    EXPECT_EQ(offspring(nameless, b, {}).species.facts.scientific_name.view(), "");
     EXPECT_EQ(child.facts.sources.front().view(),
               "Bred of amanita_muscaria and boletus_edulis: seed 7, share 0.5, mutation 0.2");
 }
