@@ -11,6 +11,17 @@
 
 namespace sporeprint::api {
 
+namespace {
+
+/// Returns the secret of the token that the Authorization header of a request has, or nothing if the header is missing
+/// or of another form.
+std::optional<Secret> secret_of(const Request& request) {
+    const std::optional<std::string_view> bearer = bearer_of(request);
+    return bearer ? read_secret(token_prefix, *bearer) : std::nullopt;
+}
+
+}  // namespace
+
 std::variant<Caller, Response> authenticated(Library& library, const ResponseBuilder& responses,
                                              const Request& request, Access access, Scope scope) {
     if (request.header("Authorization").empty()) {
@@ -18,8 +29,7 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
         return unauthorized(responses, request,
                             "a token is needed: send 'Authorization: Bearer spk_...'");
     }
-    const std::optional<std::string_view> bearer = bearer_of(request);
-    const std::optional<Secret> secret = bearer ? read_secret(token_prefix, *bearer) : std::nullopt;
+    const std::optional<Secret> secret = secret_of(request);
     if (!secret)
         return unauthorized(responses, request,
                             "the Authorization header is not a single 'Bearer' and a token, spk_ "
@@ -53,8 +63,7 @@ std::variant<Caller, Response> authenticated(Library& library, const ResponseBui
 }
 
 std::string known_owner(Library& library, const Request& request) {
-    const std::optional<std::string_view> bearer = bearer_of(request);
-    const std::optional<Secret> secret = bearer ? read_secret(token_prefix, *bearer) : std::nullopt;
+    const std::optional<Secret> secret = secret_of(request);
     return secret ? library.noted_owner(secret->digest) : std::string();
 }
 
