@@ -37,13 +37,8 @@ class CircuitBreaker {
         next_attempt_ = now + interval_;
     }
 
-    [[nodiscard]] bool is_open() const {
-        const std::lock_guard lock(mutex_);
-        return is_open_;
-    }
-
   private:
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     Clock::duration interval_;
     bool is_open_ = false;
     Clock::time_point next_attempt_;

@@ -17,14 +17,12 @@ TEST(CircuitBreaker, EveryCallerMayTryWhileTheServiceResponds) {
     CircuitBreaker breaker(3s);
     const Clock::time_point now = Clock::now();
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(breaker.may_try(now));
-    EXPECT_FALSE(breaker.is_open());
 }
 
 TEST(CircuitBreaker, OneCallerInEachIntervalMayTryWhileItIsOpen) {
     CircuitBreaker breaker(3s);
     const Clock::time_point now = Clock::now();
     breaker.open(now);
-    EXPECT_TRUE(breaker.is_open());
     EXPECT_FALSE(breaker.may_try(now));
     EXPECT_FALSE(breaker.may_try(now + 2999ms));
     std::atomic<int> allowed{0};
@@ -47,7 +45,6 @@ TEST(CircuitBreaker, AnAttemptThatFailsBeginsTheIntervalAgainAndOneThatSucceedsE
     EXPECT_FALSE(breaker.may_try(now + 7s));
     ASSERT_TRUE(breaker.may_try(now + 8s));
     breaker.close();
-    EXPECT_FALSE(breaker.is_open());
     for (int i = 0; i < 10; ++i) EXPECT_TRUE(breaker.may_try(now + 8s));
 }
 
