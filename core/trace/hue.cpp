@@ -15,17 +15,26 @@ constexpr int hue_steps = 32;
 constexpr double least_light = 0.3;
 
 /// Numbers of pixels by hue, with a border of empty ones.
-using Counts = std::array<std::array<int, hue_steps + 2>, hue_steps + 2>;
+class Counts {
+  public:
+    /// Returns the number of a hue, whose shares are from -1 to hue_steps.
+    [[nodiscard]] int& operator()(int red, int green) { return counts_[index(red, green)]; }
+    [[nodiscard]] int operator()(int red, int green) const { return counts_[index(red, green)]; }
+
+  private:
+    static constexpr int side = hue_steps + 2;
+    static constexpr std::size_t index(int red, int green) {
+        return static_cast<std::size_t>((red + 1) * side + green + 1);
+    }
+    std::array<int, std::size_t{side * side}> counts_{};
+};
 
 /// Calls a function with each hue that pixels have, and their number.
 template <class Use>
 void each_hue(const Counts& counts, Use use) {
     for (int red = 0; red < hue_steps; ++red)
         for (int green = 0; green < hue_steps; ++green)
-            if (const int count =
-                    counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)];
-                count > 0)
-                use(Hue{red, green}, count);
+            if (const int count = counts(red, green); count > 0) use(Hue{red, green}, count);
 }
 
 /// Returns the middle of the three by three hues that together most pixels have; of equal sums the one with most in
@@ -36,12 +45,9 @@ Hue densest(const Counts& counts) {
     for (int red = 0; red < hue_steps; ++red)
         for (int green = 0; green < hue_steps; ++green) {
             int sum = 0;
-            for (int i = red; i <= red + 2; ++i)
-                for (int j = green; j <= green + 2; ++j)
-                    sum += counts[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-            const std::array<int, 2> here = {
-                sum,
-                counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)]};
+            for (int i = red - 1; i <= red + 1; ++i)
+                for (int j = green - 1; j <= green + 1; ++j) sum += counts(i, j);
+            const std::array<int, 2> here = {sum, counts(red, green)};
             if (here <= most) continue;
             most = here;
             best = {red, green};
@@ -95,8 +101,7 @@ void leave_larger_group(Counts& counts, const Hue& first) {
     const bool leaves_one = one.pixels >= other.pixels;
     for (int red = 0; red < hue_steps; ++red)
         for (int green = 0; green < hue_steps; ++green)
-            if (is_of_one({red, green}) != leaves_one)
-                counts[static_cast<std::size_t>(red + 1)][static_cast<std::size_t>(green + 1)] = 0;
+            if (is_of_one({red, green}) != leaves_one) counts(red, green) = 0;
 }
 
 }  // namespace
@@ -121,11 +126,11 @@ Hue commonest_hue(std::vector<Pixel> pixels) {
                      [&](const Pixel& a, const Pixel& b) { return value(a) < value(b); });
     // By the greatest channel: pure red is no shade of white.
     const double least = least_light * value(*light);
-    Counts counts{};
+    Counts counts;
     for (const Pixel& pixel : pixels) {
         if (value(pixel) < least) continue;
         const Hue hue = hue_of(pixel);
-        ++counts[static_cast<std::size_t>(hue[0] + 1)][static_cast<std::size_t>(hue[1] + 1)];
+        ++counts(hue[0], hue[1]);
     }
     leave_larger_group(counts, densest(counts));
     return densest(counts);
