@@ -13,6 +13,7 @@
 #include "api/http/schemas.h"
 #include "api/http/text.h"
 #include "api/products/mix.h"
+#include "api/products/worlds.h"
 #include "core/params/describe.h"
 #include "core/plant/wood.h"
 
@@ -135,7 +136,15 @@ Value parameters_of(const Route& route, const DocumentInputs& inputs) {
                                        "base_color"));
     }
     if (route.query_schema) add_query_parameters(route.query_schema(atlas), "", parameters);
-    if (is_cached(route) && is_get(route))
+    if (has("{world}"))
+        parameters.push(path_parameter(
+            "world",
+            "Id of a preset, then what differs from it as ,name=value by the names of "
+            "/v1/worlds/schema, last perhaps ,v= and a version token: today's makes the answer "
+            "immutable, any other is 410 with the canonical address of today's.",
+            object({{"type", "string"}, {"maxLength", longest_world}}),
+            atlas.worlds().front().id.string() + ",seed=7"));
+    if (is_cached(route) && is_get(route) && !has("{world}"))
         parameters.push(query_parameter(
             "v", false,
             "Version token. Today's makes the answer immutable; any other is 410 with the "

@@ -11,6 +11,7 @@
 #include "api/products/sets.h"
 #include "api/products/traces.h"
 #include "api/products/trees.h"
+#include "api/products/worlds.h"
 #include "api/static_documents.h"
 
 namespace sporeprint::api {
@@ -25,6 +26,7 @@ const RouteTable& route_table() {
         colony_routes,
         leaf_routes,
         tree_routes,
+        world_routes,
         set_routes,
         photo_routes,
         trace_routes,

@@ -39,7 +39,7 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
     PaintWork work = decide(errors);
     if (image.requested_version && *image.requested_version != image.version)
         return superseded(responses, request, "v", *image.requested_version, image.version,
-                          image.address, errors);
+                          with_version(image.address, image.version), errors);
     if (!errors.empty()) return responses.problem(request, errors);
 
     const std::string digest = digest_of(work.key);

@@ -194,7 +194,7 @@ Plan plan_from_url(RouteCall& call) {
     if (!errors.empty()) return context.responses.problem(request, errors);
     Resource resource;
     resource.version = version_token(requested.species, *context.atlas);
-    resource.address = canonical_address(requested);
+    resource.address = with_version(canonical_address(requested), resource.version);
     resource.key = key_of(requested, resource.version);
     resource.type = "application/json";
     resource.file_name = requested.species[0] + '-' + requested.species[1] + ".json";

@@ -45,7 +45,8 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     const auto resolved = std::make_shared<typename Kind::Resolved>();
     Resource resource;
     resource.version = Kind::version(*spec, *context.atlas);
-    resource.address = Kind::url(*spec, product, *context.atlas);
+    const std::string url = Kind::url(*spec, product, *context.atlas);
+    if (!url.empty()) resource.address = with_version(url, resource.version);
     resource.key = Kind::key(*spec, product, resource.version);
     resource.type = type_of(product);
     resource.file_name = Kind::file_name(*spec, product, *context.atlas);
@@ -58,8 +59,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
         resource.search = Kind::search(*spec, *context.atlas);
     if constexpr (requires { Kind::guess(*spec, product, *context.atlas); })
         resource.guess = Kind::guess(*spec, product, *context.atlas);
-    resource.make = [&context, spec, product, resolved, url = resource.address,
-                     depth = link_depth(context, request),
+    resource.make = [&context, spec, product, resolved, url, depth = link_depth(context, request),
                      version = resource.version](JobContext& job) -> Body {
         if constexpr (requires { (*resolved)->set; })
             if (*resolved && (*resolved)->set) job.count_known_morphs();

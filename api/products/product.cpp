@@ -125,7 +125,7 @@ Response superseded(const ResponseBuilder& responses, const Request& request, co
         in_quotes(requested) + " is no longer made; today's version is " + in_quotes(version));
     Value::Object more;
     if (errors.status() == 410 && !address.empty())
-        more.emplace_back("canonical", responses.link(with_version(address, version)));
+        more.emplace_back("canonical", responses.link(address));
     return responses.problem(request, errors.status(), {}, errors.problems(), more);
 }
 

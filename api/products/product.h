@@ -106,7 +106,7 @@ void without_negative_zero(T& value) {
 /// Returns 410 for a version token that is not the current one, or a problem that precedes it.
 ///
 /// parameter  name of the token: "v", or "/v" in a body
-/// address    canonical URL without version; empty if there is none
+/// address    canonical URL with the current version; empty if there is none
 [[nodiscard]] Response superseded(const ResponseBuilder& responses, const Request& request,
                                   const char* parameter, const std::string& requested,
                                   const std::string& version, const std::string& address,

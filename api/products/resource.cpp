@@ -59,8 +59,7 @@ Response resource_head(const Context& context, const Resource& resource, const s
                     {"Cache-Control", cache_control(versioned)},
                     {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
     if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_urls)
-        head.headers.emplace_back("Content-Location", context.responses.link(with_version(
-                                                          resource.address, resource.version)));
+        head.headers.emplace_back("Content-Location", context.responses.link(resource.address));
     return head;
 }
 

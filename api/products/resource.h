@@ -24,7 +24,7 @@ struct Resource {
     Key key;              ///< full canonical text
     std::string type;     ///< media type
     std::string version;  ///< current version token
-    std::string address;  ///< canonical URL without version; empty if it has none
+    std::string address;  ///< canonical URL with the current version; empty if it has none
     std::string file_name;
     std::optional<std::string> requested_version;
     bool is_linked = false;  ///< contains URLs of its images

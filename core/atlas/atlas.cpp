@@ -146,6 +146,7 @@ Atlas::Atlas(const AtlasTexts& texts) {
         tree.leaf.among = leaf_ids_;
         check_leaf(tree, problems);
     }
+    worlds_ = presets_of<WorldPreset>(texts.worlds, problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
@@ -168,6 +169,10 @@ const TreePreset* Atlas::find_tree(std::string_view id) const {
     return host_ ? host_->find_tree(id) : preset_in(trees_, id);
 }
 
+const WorldPreset* Atlas::find_world(std::string_view id) const {
+    return host_ ? host_->find_world(id) : preset_in(worlds_, id);
+}
+
 std::shared_ptr<const Atlas> built_in_atlas() {
     return std::make_shared<const Atlas>(built_in_texts());
 }
@@ -175,15 +180,18 @@ std::shared_ptr<const Atlas> built_in_atlas() {
 std::shared_ptr<const Atlas> atlas_from(const std::filesystem::path& folder) {
     AtlasTexts texts{.species = texts_in<Species>(folder),
                      .leaves = texts_in_subfolder<LeafPreset>(folder / "leaves"),
-                     .trees = texts_in_subfolder<TreePreset>(folder / "trees")};
+                     .trees = texts_in_subfolder<TreePreset>(folder / "trees"),
+                     .worlds = texts_in_subfolder<WorldPreset>(folder / "worlds")};
     for (std::string& text : texts_in_subfolder<Species>(folder / "species"))
         texts.species.push_back(std::move(text));
-    if (texts.species.empty() && texts.leaves.empty() && texts.trees.empty())
+    if (texts.species.empty() && texts.leaves.empty() && texts.trees.empty() &&
+        texts.worlds.empty())
         throw InvalidInput(folder.string(), "the folder holds no *.json template");
     const AtlasTexts& built_in = built_in_texts();
     if (texts.species.empty()) texts.species = built_in.species;
     if (texts.leaves.empty()) texts.leaves = built_in.leaves;
     if (texts.trees.empty()) texts.trees = built_in.trees;
+    if (texts.worlds.empty()) texts.worlds = built_in.worlds;
     return std::make_shared<const Atlas>(texts);
 }
 

@@ -1,4 +1,4 @@
-// The atlas: the species, leaves and trees that are compiled in or read from a folder. It is
+// The atlas: the species, leaves, trees and worlds that are compiled in or read from a folder. It is
 // immutable.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "core/model/species.h"
 #include "core/plant/leaf.h"
 #include "core/plant/tree.h"
+#include "core/world/world_params.h"
 
 namespace sporeprint {
 
@@ -32,18 +33,18 @@ struct AtlasGuest {
     std::shared_ptr<const AtlasEntry> entry;
 };
 
-/// The JSON texts of an atlas, one per species, leaf or tree, in any order.
+/// The JSON texts of an atlas, one per species, leaf, tree or world, in any order.
 struct AtlasTexts {
-    std::vector<std::string> species{}, leaves{}, trees{};
+    std::vector<std::string> species{}, leaves{}, trees{}, worlds{};
 };
 
-/// Species, leaves and trees; each kind has its own ids.
+/// Species, leaves, trees and worlds; each kind has its own ids.
 class Atlas {
   public:
     /// Parses and validates the texts.
     ///
     /// throws  InvalidInput with the problems of all texts, repeated ids and trees with unknown
-    ///         leaves included; paths are prefixed by the id of the species, leaf or tree
+    ///         leaves included; paths are prefixed by the id of the species, leaf, tree or world
     explicit Atlas(const AtlasTexts& texts);
 
     /// Makes an atlas that has what another one has, and finds guests as well; they are in none of its lists.
@@ -82,6 +83,14 @@ class Atlas {
         return host_ ? host_->trees() : trees_;
     }
 
+    /// Returns a world, or nullptr if the atlas has no world with this id.
+    [[nodiscard]] const WorldPreset* find_world(std::string_view id) const;
+
+    /// Returns all worlds, sorted by rank and id.
+    [[nodiscard]] std::span<const WorldPreset> worlds() const {
+        return host_ ? host_->worlds() : worlds_;
+    }
+
     /// Returns the ids of leaves(), in their order. They live as long as the atlas, even if it is
     /// moved.
     [[nodiscard]] std::span<const std::string> leaf_ids() const {
@@ -100,6 +109,7 @@ class Atlas {
     std::vector<AtlasEntry> entries_;
     std::vector<LeafPreset> leaves_;
     std::vector<TreePreset> trees_;
+    std::vector<WorldPreset> worlds_;
     std::vector<std::string> leaf_ids_;
     std::string leaf_text_;
 };
@@ -111,7 +121,7 @@ class Atlas {
 [[nodiscard]] std::shared_ptr<const Atlas> built_in_atlas();
 
 /// Reads an atlas from the *.json files of a folder: species from the folder itself and its
-/// subfolder species/, leaves from leaves/, trees from trees/. Other files and subfolders are not
+/// subfolder species/, leaves from leaves/, trees from trees/, worlds from worlds/. Other files and subfolders are not
 /// read. A kind without files is taken from the built-in atlas; files of a kind replace all
 /// built-in ones of this kind.
 ///

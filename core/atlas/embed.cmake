@@ -1,8 +1,8 @@
 # Writes every template of the atlas as a raw string literal. OUTPUT: the source; SPECIES, LEAVES,
-# TREES: lists of JSON files.
+# TREES, WORLDS: lists of JSON files.
 set(text "// Made from core/atlas/*/*.json.\n#include \"core/atlas/atlas.h\"\n\nnamespace sporeprint {\n\n")
 string(APPEND text "const AtlasTexts& built_in_texts() {\n    static const AtlasTexts texts = {\n")
-foreach(kind IN ITEMS SPECIES LEAVES TREES)
+foreach(kind IN ITEMS SPECIES LEAVES TREES WORLDS)
   string(APPEND text "        {\n")
   foreach(template IN LISTS ${kind})
     file(READ ${template} content)

@@ -89,6 +89,7 @@ enum Purpose : std::uint32_t {
     ground_crumbs = 149,   ///< grains of soil on a clod and beside it
     crossing = 150,        ///< what an offspring has of which parent
     mutation = 151,        ///< how its genes differ from those of its parents
+    weather = 201,         ///< of a world: rain and warmth, day by day
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -178,6 +179,7 @@ enum Purpose : std::uint32_t {
         case ground_crumbs:
         case crossing:
         case mutation:
+        case weather:
             return 1;
     }
     return 0;

@@ -120,6 +120,8 @@ TEST(OpenApi, NamesEveryQueryParameter) {
     EXPECT_EQ(query_names(get("/v1/trees/{preset}.glb")), tree);
     EXPECT_EQ(query_names(get("/v1/trees/{preset}.json")), tree);
     EXPECT_EQ(query_names(get("/v1/trees/{preset}/{image}.jpg")), tree_surface);
+    EXPECT_EQ(query_names(get("/v1/worlds/{world}.json")), (std::set<std::string>{}));
+    EXPECT_EQ(query_names(get("/v1/worlds/{world}/weather.json")), (std::set<std::string>{"year"}));
     EXPECT_EQ(query_names(get("/v1/morphs/{a}/{b}")), (std::set<std::string>{"age", "v"}));
     EXPECT_EQ(query_names(get("/v1/species")),
               (std::set<std::string>{"form", "family", "substrate", "habit", "month", "colour",

@@ -11,7 +11,7 @@
 namespace sporeprint {
 
 /// Returns eight species of the built-in atlas, one of each form that is traced and a coral among them, with all
-/// leaves and trees.
+/// leaves, trees and worlds.
 inline std::shared_ptr<const Atlas> small_atlas() {
     static const std::shared_ptr<const Atlas> made = [] {
         AtlasTexts texts;
@@ -21,6 +21,8 @@ inline std::shared_ptr<const Atlas> small_atlas() {
             texts.species.push_back(dump(write(atlas().find(id)->species)));
         for (const LeafPreset& leaf : leaf_presets()) texts.leaves.push_back(dump(write(leaf)));
         for (const TreePreset& tree : tree_presets()) texts.trees.push_back(dump(write(tree)));
+        for (const WorldPreset& world : atlas().worlds())
+            texts.worlds.push_back(dump(write(world)));
         return std::make_shared<const Atlas>(texts);
     }();
     return made;

@@ -267,7 +267,7 @@ test("the navigation and a colony fit into every width from 320 pixels", async (
         `?colony=hypholoma_fasciculare:0.5,coprinus_comatus:0.5&lod=3&texture_size=128`,
         { width: 360, height: 740 },
     );
-    for (const width of [320, 360, 460, 461, 560, 680, 681, 900, 901, 1100, 1280]) {
+    for (const width of [320, 360, 420, 421, 540, 541, 760, 761, 900, 901, 1100, 1280]) {
         await page.setViewportSize({ width, height: 740 });
         const over = await page.evaluate(() =>
             [...document.querySelectorAll("main *, aside *, header *, footer")]

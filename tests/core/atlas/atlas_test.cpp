@@ -260,7 +260,7 @@ TEST(Atlas, InvalidFoldersAndFilesAreNamed) {
     EXPECT_NE(problems[0].path.find("broken.json:/stages/"), std::string::npos) << problems[0].path;
 }
 
-/// Returns the ids of leaves or trees, in their order.
+/// Returns the ids of leaves, trees or worlds, in their order.
 template <class Presets>
 std::vector<std::string> ids_of(const Presets& presets) {
     std::vector<std::string> ids;
@@ -303,17 +303,34 @@ TEST(Atlas, FindsLeavesAndTreesByTheirOwnIds) {
     EXPECT_EQ(atlas().find_tree(""), nullptr);
 }
 
-TEST(Atlas, LeavesAndTreesReadBackFromTheirJson) {
+TEST(Atlas, LeavesTreesAndWorldsReadBackFromTheirJson) {
     AtlasTexts texts;
     for (const LeafPreset& leaf : atlas().leaves()) texts.leaves.push_back(dump(write(leaf)));
     for (const TreePreset& tree : atlas().trees()) texts.trees.push_back(dump(write(tree)));
+    for (const WorldPreset& world : atlas().worlds()) texts.worlds.push_back(dump(write(world)));
     Atlas again(texts);
     EXPECT_TRUE(std::ranges::equal(again.leaves(), atlas().leaves()));
     EXPECT_TRUE(std::ranges::equal(again.trees(), atlas().trees()));
+    EXPECT_TRUE(std::ranges::equal(again.worlds(), atlas().worlds()));
     EXPECT_EQ(again.leaf_text(), atlas().leaf_text());
     const Atlas moved = std::move(again);
     EXPECT_TRUE(moved.trees()[0].leaf.allows("needle"));
     EXPECT_EQ(moved.trees()[0].leaf.among.data(), moved.leaf_ids().data());
+}
+
+TEST(Atlas, WorldsStandByRankAndAreFoundByTheirIds) {
+    EXPECT_TRUE(std::ranges::is_sorted(atlas().worlds(), {}, &WorldPreset::rank));
+    EXPECT_EQ(atlas().worlds().front().id.view(), "beech");
+    ASSERT_NE(atlas().find_world("birch"), nullptr);
+    EXPECT_EQ(atlas().find_world("maple"), nullptr);
+    const std::string wood = R"({"id":"wood","name":"Wood"})";
+    const auto problems = refusal([&] {
+        (void)Atlas({.worlds = {wood, wood, R"({"id":"wet","name":"Wet","climate":{"rain":3001}})",
+                                R"({"id":"bare"})"}});
+    });
+    EXPECT_TRUE(names(problems, "wood:/id", "two templates"));
+    EXPECT_TRUE(names(problems, "wet:/climate/rain", "3001 is outside"));
+    EXPECT_TRUE(names(problems, "bare:/name", "missing"));
 }
 
 TEST(Atlas, ProblemsOfLeavesAndTreesNameTheirId) {
@@ -344,7 +361,7 @@ TEST(Atlas, ATreeOfAnUnknownLeafIsRefused) {
     EXPECT_EQ(said("oak", leaves), std::vector<Problem>{});
 }
 
-TEST(Atlas, AFolderHoldsTheThreeKinds) {
+TEST(Atlas, AFolderHoldsTheFourKinds) {
     const Folder folder;
     const std::string boletus = atlas().find("boletus_edulis")->json;
     folder.write("species/porcini.json", boletus);
@@ -352,15 +369,18 @@ TEST(Atlas, AFolderHoldsTheThreeKinds) {
     EXPECT_EQ(species_only->entries().size(), 1u);
     EXPECT_EQ(ids_of(species_only->leaves()), ids_of(atlas().leaves()));
     EXPECT_EQ(ids_of(species_only->trees()), ids_of(atlas().trees()));
+    EXPECT_EQ(ids_of(species_only->worlds()), ids_of(atlas().worlds()));
 
     folder.write("leaves/elm.json", leaf_json("elm", "birch"));
     folder.write("leaves/notes.txt", "not a template");
     folder.write("trees/elm.json", tree_json("elm", "shrub", "elm"));
+    folder.write("worlds/fen.json", R"({"id":"fen","name":"Fen"})");
     folder.write("agaric.json", atlas().find("amanita_muscaria")->json);
     const auto all = atlas_from(folder.path());
     EXPECT_EQ(all->entries().size(), 2u) << "beside the subfolder, too";
     EXPECT_EQ(ids_of(all->leaves()), Ids{"elm"});
     EXPECT_EQ(ids_of(all->trees()), Ids{"elm"});
+    EXPECT_EQ(ids_of(all->worlds()), Ids{"fen"});
 
     folder.write("again.json", boletus);
     EXPECT_TRUE(

@@ -206,6 +206,17 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/v1/trees/{preset}/{image}.jpg", bark), client.GET("/v1/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
     await both(client.HEAD("/v1/trees/{preset}/{image}.webp", bark), client.GET("/v1/trees/{preset}/{image}.webp", { ...bark, ...binary }));
 
+    await both(client.HEAD("/v1/worlds", {}), client.GET("/v1/worlds", {}));
+    await both(client.HEAD("/v1/worlds/schema", {}), client.GET("/v1/worlds/schema", {}));
+    const wet = { params: { path: { world: "beech,seed=7,climate.rain=1200" } } };
+    await client.HEAD("/v1/worlds/{world}.json", wet);
+    const { data: world } = await client.GET("/v1/worlds/{world}.json", wet);
+    if (world?.effective.climate.rain !== 1200) throw new Error("the effective rain is not told");
+    const eightieth = { params: { ...wet.params, query: { year: 80 } } };
+    await client.HEAD("/v1/worlds/{world}/weather.json", eightieth);
+    const { data: weather } = await client.GET("/v1/worlds/{world}/weather.json", eightieth);
+    if (weather?.days.rain_mm.length !== 365) throw new Error("the year is not whole");
+
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {
         body: picture as unknown as string,

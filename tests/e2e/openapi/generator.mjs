@@ -109,6 +109,10 @@ export class Generator {
         }
         if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
+        if (name === "world") {
+            const texts = ["", ",seed=7", ",climate.rain=600,climate.latitude_deg=-40"];
+            return dice.pick(lists.worlds) + dice.pick(texts);
+        }
         if (name === "type") return dice.pick(lists.types);
         if (name === "photo") return dice.pick(lists.photos);
         if (name === "lod") return dice.pick(["0", "3"]);
@@ -131,7 +135,7 @@ export class Generator {
             if (parameter.in !== "path") continue;
             let value = this.pathValue(parameter.name, path) ?? this.right(parameter.schema, parameter.name);
             if (dice.chance(0.04)) [value, right] = [dice.pick(["nobody", "amanita_muscara", "%", "a:0,b:-1", "ä", "..", "x".repeat(300)]), false];
-            target = target.replace(`{${parameter.name}}`, encodeURIComponent(value).replaceAll("%3A", ":").replaceAll("%2C", ","));
+            target = target.replace(`{${parameter.name}}`, encodeURIComponent(value).replaceAll("%3A", ":").replaceAll("%2C", ",").replaceAll("%3D", "="));
         }
         const known = (operation.parameters ?? []).filter((one) => one.in === "query" && one.name !== "v");
         const small = known.filter((one) => ["lod", "texture_size", "count"].includes(one.name));
@@ -206,6 +210,7 @@ export async function listsOf(url, document) {
     families: [await list("/v1/species?family=swept", "species"), await list("/v1/species?family=branched", "species")],
     leaves: await list("/v1/leaves", "leaves"),
     trees: await list("/v1/trees", "trees"),
+    worlds: await list("/v1/worlds", "worlds"),
     types: Object.values(document.components.responses).map((one) => one.content?.["application/problem+json"]?.example.type.split("/").pop()).filter(Boolean),
     file: await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128"),
     picture,

@@ -1,0 +1,320 @@
+#include "api/products/worlds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "api/http/schemas.h"
+#include "api/products/presets.h"
+#include "api/products/resource.h"
+#include "core/params/canonical.h"
+#include "core/params/query.h"
+#include "core/params/schema.h"
+#include "core/world/weather.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr const char* json = "application/json";
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+/// Returns the pairs behind the preset of a world's text. A part without '=' is an error.
+Pairs pairs_of(std::string_view text, ValidationErrors& errors) {
+    Pairs pairs;
+    while (!text.empty()) {
+        text.remove_prefix(1);  // the comma
+        const std::string_view part = text.substr(0, text.find(','));
+        const std::size_t equals = part.find('=');
+        if (equals == std::string_view::npos || equals == 0)
+            errors.add(400, "world",
+                       in_quotes(part) +
+                           " is not name=value; a world is a preset and such pairs "
+                           "behind it, as in 'beech,seed=7'");
+        else
+            pairs.emplace_back(part.substr(0, equals), part.substr(equals + 1));
+        text.remove_prefix(part.size());
+    }
+    return pairs;
+}
+
+/// The query of a world's weather.
+struct YearParams {
+    int year = 0;
+
+    static constexpr void fields(auto visit) {
+        visit(&YearParams::year,
+              Info{.name = "year", .min = 0, .max = last_year, .doc = "Which year of the world."});
+    }
+};
+static_assert(well_described<YearParams>());
+
+/// Returns the query of a world; `v` is refused with the place where it belongs.
+Pairs query_of(const Target& target, ValidationErrors& errors) {
+    Pairs query;
+    for (const auto& pair : target.query) {
+        if (pair.first == "v")
+            errors.add(400, "v", "of a world ends its text in the path: ',v=' and the token");
+        else
+            query.push_back(pair);
+    }
+    return query;
+}
+
+/// Returns the resource of a world that has an ending such as "/weather.json" and a query.
+Resource resource_of(const Context& context, const WorldRequest& requested,
+                     const std::string& ending, const std::string& query) {
+    Resource resource;
+    resource.version = preset_token<Worlds>(*context.atlas, requested.spec.preset);
+    const std::string text = world_text(requested.spec, *context.atlas, resource.version);
+    resource.address = with_query(folder_of(Worlds::all) + text + ending, query);
+    resource.key = Worlds::one + with_query(ending, query) + ' ' + resource.version + '\n' +
+                   requested.spec.preset + '\n' + canonical_text(requested.spec.params);
+    resource.type = json;
+    resource.requested_version = requested.version;
+    return resource;
+}
+
+Value describe_world(const Context& context, const WorldSpec& spec, const std::string& version) {
+    const std::string text = world_text(spec, *context.atlas, version),
+                      folder = folder_of(Worlds::all) + text;
+    return Value::object()
+        .set("canonical", folder_of(Worlds::all) + world_text(spec, *context.atlas) + ".json")
+        .set("world", text)
+        .set("v", version)
+        .set("preset", spec.preset)
+        .set("effective", write(spec.params))
+        .set("years", Value(Value::Array{0, last_year}))
+        .set("links", Value::object()
+                          .set("self", context.responses.link(folder + ".json"))
+                          .set("weather", context.responses.link(folder + "/weather.json"))
+                          .set("schema", context.responses.link("/v1/worlds/schema")));
+}
+
+/// Returns a number with two digits behind its point.
+double rounded(double value) { return std::round(value * 100.0) / 100.0 + 0.0; }
+
+constexpr std::array<int, 12> days_of_months = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+
+/// Returns the sums and means of some days of a year.
+Value summary(std::span<const WeatherDay> days) {
+    WeatherDay sum;
+    int wet_days = 0;
+    for (const WeatherDay& day : days) {
+        sum.rain += day.rain;
+        sum.temperature += day.temperature;
+        sum.evaporation += day.evaporation;
+        sum.soil_water += day.soil_water;
+        wet_days += day.rain > 0.0 ? 1 : 0;
+    }
+    const auto count = static_cast<double>(days.size());
+    return Value::object()
+        .set("rain_mm", rounded(sum.rain))
+        .set("rain_days", wet_days)
+        .set("temperature_c", rounded(sum.temperature / count))
+        .set("evaporation_mm", rounded(sum.evaporation))
+        .set("soil_water_mm", rounded(sum.soil_water / count));
+}
+
+Value daily(const WeatherYear& year, double WeatherDay::*member) {
+    Value list = Value::array();
+    for (const WeatherDay& day : year) list.push(rounded(day.*member));
+    return list;
+}
+
+Value describe_weather(const WorldSpec& spec, const std::string& text, int number) {
+    const WeatherYear year = weather_of(spec.params.climate, spec.params.seed, number);
+    const std::span<const WeatherDay> days = year;
+    Value months = Value::array();
+    std::size_t first = 0;
+    for (const int length : days_of_months) {
+        months.push(summary(days.subspan(first, static_cast<std::size_t>(length))));
+        first += static_cast<std::size_t>(length);
+    }
+    return Value::object()
+        .set("world", text)
+        .set("year", number)
+        .set("days", Value::object()
+                         .set("rain_mm", daily(year, &WeatherDay::rain))
+                         .set("temperature_c", daily(year, &WeatherDay::temperature))
+                         .set("evaporation_mm", daily(year, &WeatherDay::evaporation))
+                         .set("soil_water_mm", daily(year, &WeatherDay::soil_water)))
+        .set("months", std::move(months))
+        .set("whole_year", summary(days))
+        .set("most_soil_water_mm", most_soil_water);
+}
+
+Plan plan_description(RouteCall& call) {
+    Context& context = call.context;
+    const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
+    std::vector<Problem> problems;
+    const Pairs query = query_of(call.target, call.errors);
+    QueryReader(query, problems).refuse_the_rest();
+    call.errors.add(400, problems);
+    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    Resource resource = resource_of(context, requested, ".json", {});
+    resource.file_name = requested.spec.preset + ".json";
+    resource.estimate_cost = [](const Caches&) { return Cost{.base = 50}; };
+    resource.make = [&context, spec = requested.spec, version = resource.version](JobContext& job) {
+        job.execution().observer(Step::pack);
+        return Body{slice_of(dump(describe_world(context, spec, version)))};
+    };
+    return plan_resource(context, call.request, std::move(resource), call.errors);
+}
+
+Plan plan_weather(RouteCall& call) {
+    Context& context = call.context;
+    const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
+    YearParams params;
+    std::vector<Problem> problems;
+    read_query(query_of(call.target, call.errors), params, problems);
+    call.errors.add(400, problems);
+    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    Resource resource = resource_of(context, requested, "/weather.json", query_text(params));
+    resource.file_name =
+        requested.spec.preset + "_weather_" + std::to_string(params.year) + ".json";
+    resource.estimate_cost = [](const Caches&) { return Cost{.base = 600}; };
+    resource.make =
+        [spec = requested.spec, year = params.year,
+         text = world_text(requested.spec, *context.atlas, resource.version)](JobContext& job) {
+            job.execution().observer(Step::build);
+            const Value weather = describe_weather(spec, text, year);
+            job.execution().observer(Step::pack);
+            return Body{slice_of(dump(weather))};
+        };
+    return plan_resource(context, call.request, std::move(resource), call.errors);
+}
+
+Value world_list(const Atlas& atlas) {
+    Value list = Value::array();
+    for (const WorldPreset& preset : atlas.worlds()) {
+        const std::string folder = folder_of(Worlds::all) + preset.id.string();
+        list.push(Value::object()
+                      .set("id", preset.id.view())
+                      .set("name", preset.name.view())
+                      .set("links", Value::object()
+                                        .set("self", folder + ".json")
+                                        .set("weather", folder + "/weather.json")
+                                        .set("schema", "/v1/worlds/schema")));
+    }
+    return Value::object().set(Worlds::all, std::move(list));
+}
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/worlds",
+     .id = "list_worlds",
+     .summary = "The worlds to begin with.",
+     .media_type = json,
+     .response_schema = "world_list",
+     .document = [](const DocumentInputs& inputs) { return world_list(inputs.atlas); }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/worlds/schema",
+     .id = "world_schema",
+     .summary = "JSON Schema of the parameters that the text of a world names.",
+     .media_type = "application/schema+json",
+     .document =
+         [](const DocumentInputs&) {
+             return from_preset<ClimateParams>(
+                 schema_document<WorldParams>("Parameters of a world"));
+         }},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}.json",
+     .id = "describe_world",
+     .summary = "A world: its canonical text, its effective parameters, and what there is of it.",
+     .media_type = json,
+     .response_schema = "world_description",
+     .plan = plan_description},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/weather.json",
+     .id = "get_weather",
+     .summary = "Rain, temperature, evaporation and the water in the soil on each day of a year.",
+     .media_type = json,
+     .response_schema = "weather",
+     .query_schema = [](const Atlas&) { return schema<YearParams>(); },
+     .plan = plan_weather},
+};
+
+void add_links(Value& links, const Atlas&) {
+    links.set("worlds", "/v1/worlds").set("world_schema", "/v1/worlds/schema");
+}
+
+void add_schemas(Value& schemas, const Atlas&) {
+    const Value text = typed("string"), number = typed("number"), whole = typed("integer");
+    const Value days = list_of(number);
+    const Value sums = objects({{"rain_mm", number},
+                                {"rain_days", whole},
+                                {"temperature_c", number},
+                                {"evaporation_mm", number},
+                                {"soil_water_mm", number}});
+    schemas.set("world_params", as_written(schema<WorldParams>()))
+        .set("world_list",
+             objects({{"worlds",
+                       list_of(objects({{"id", text}, {"name", text}, {"links", map_of(text)}}))}}))
+        .set("world_description", objects({{"canonical", text},
+                                           {"world", text},
+                                           {"v", text},
+                                           {"preset", text},
+                                           {"effective", reference("schemas/world_params")},
+                                           {"years", list_of(whole)},
+                                           {"links", map_of(text)}}))
+        .set("weather", objects({{"world", text},
+                                 {"year", whole},
+                                 {"days", objects({{"rain_mm", days},
+                                                   {"temperature_c", days},
+                                                   {"evaporation_mm", days},
+                                                   {"soil_water_mm", days}})},
+                                 {"months", list_of(sums)},
+                                 {"whole_year", sums},
+                                 {"most_soil_water_mm", number}}));
+}
+
+}  // namespace
+
+WorldRequest read_world(std::string_view text, const Atlas& atlas, ValidationErrors& errors) {
+    WorldRequest request;
+    if (text.size() > longest_world) {
+        errors.add(400, "world",
+                   "has " + std::to_string(text.size()) + " bytes; at most " +
+                       std::to_string(longest_world) + " are allowed");
+        text = {};
+    }
+    const std::string_view id = text.substr(0, text.find(','));
+    const WorldPreset& preset = preset_of<Worlds>(atlas, id, "world", errors);
+    request.spec = {preset.id.string(), params_of(preset)};
+    Pairs rest;
+    request.version = take_version(pairs_of(text.substr(id.size()), errors), rest, errors);
+    std::vector<Problem> problems;
+    read_query(rest, request.spec.params, problems);
+    errors.add(400, problems);
+    without_negative_zero(request.spec.params);
+    return request;
+}
+
+std::string world_text(const WorldSpec& spec, const Atlas& atlas, std::string_view version) {
+    std::string query = query_text(spec.params, own_params<Worlds>(atlas, spec.preset));
+    std::replace(query.begin(), query.end(), '&', ',');
+    std::string text = spec.preset;
+    if (!query.empty()) (text += ',') += query;
+    if (!version.empty()) (text += ",v=") += version;
+    return text;
+}
+
+const RouteGroup world_routes = {
+    .tag = "worlds",
+    .description = "Worlds: so far the weather of woods and meadows through 200 years.",
+    .routes = routes,
+    .add_links = add_links,
+    .add_schemas = add_schemas,
+};
+
+}  // namespace sporeprint::api

@@ -1,0 +1,50 @@
+// Worlds: the text that names one in a URL, what a world is like, its weather, and their routes.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "api/http/errors.h"
+#include "api/http/routes.h"
+#include "api/products/product.h"
+#include "core/atlas/atlas.h"
+#include "core/world/world_params.h"
+
+namespace sporeprint::api {
+
+/// Longest text of a world in a URL, bytes.
+inline constexpr int longest_world = 2048;
+
+/// The Kind of presets.h for worlds, as far as they have presets like other products.
+struct Worlds {
+    using Preset = WorldPreset;
+    using Params = WorldParams;
+    static constexpr const char *one = "world", *all = "worlds";
+    static std::span<const Preset> presets(const Atlas& atlas) { return atlas.worlds(); }
+    static const Preset* find(const Atlas& atlas, std::string_view id) {
+        return atlas.find_world(id);
+    }
+};
+
+/// A world that a URL names, and the version token of the request.
+struct WorldRequest {
+    WorldSpec spec;
+    std::optional<std::string> version;
+};
+
+/// Reads the {world} of a URL: "beech,seed=7,climate.rain=600,v=35-1a2b3c4d". Errors name the parameters of the text,
+/// or "world" for its form and its preset: 400 for syntax and values, 404 for an unknown preset.
+[[nodiscard]] WorldRequest read_world(std::string_view text, const Atlas& atlas,
+                                      ValidationErrors& errors);
+
+/// Returns the canonical text of a world: its preset, then parameters that differ from it in the order of the schema.
+///
+/// version  token that ends it; none if empty
+[[nodiscard]] std::string world_text(const WorldSpec& spec, const Atlas& atlas,
+                                     std::string_view version = {});
+
+extern const RouteGroup world_routes;
+
+}  // namespace sporeprint::api
