@@ -445,9 +445,14 @@ SpeciesFromPhoto species_from_photo(const MushroomOnPhoto& on, const FacesOnPhot
             first->traced && !trace::is_hollow(form)
                 ? resized(*first->traced, params.height_m / trace::TraceParams{}.height_m)
                 : tried(first->found, params).traced;
-        Grown grown =
-            as_found ? Grown{*as_found, trace::whole_species(lender, as_found->shape, chosen.age)}
-                     : stretched(first->found, params, lender, chosen.age);
+        std::optional<Grown> with_outline;
+        if (as_found)
+            with_outline =
+                Grown{*as_found, trace::whole_species(lender, as_found->shape, chosen.age)};
+        // An outline that is simple by itself may still cross itself on the way to other ages.
+        Grown grown = with_outline && with_outline->whole.certificate.simple
+                          ? *std::move(with_outline)
+                          : stretched(first->found, params, lender, chosen.age);
         trace::Traced& traced = grown.traced;
         found.whole = std::move(grown.whole);
         const FacesShown shown = shown_by(faces, traced);

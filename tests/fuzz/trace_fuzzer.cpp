@@ -19,20 +19,13 @@ using namespace sporeprint;
 
 namespace {
 
-/// A pale mushroom before green, as small as can be traced.
+/// A mushroom as small as can be traced.
 Picture photograph() {
     DrawnMushroom drawn;
     drawn.side = 180;
     drawn.pixels = 150.0;
     drawn.bend_deg = 10.0;
-    const trace::Mask mask = drawn.mask();
-    Picture photo{drawn.side, drawn.side, {}};
-    photo.rgb.reserve(3 * mask.inside.size());
-    for (const std::uint8_t inside : mask.inside)
-        for (const int base :
-             {inside != 0 ? 190 : 40, inside != 0 ? 150 : 90, inside != 0 ? 110 : 30})
-            photo.rgb.push_back(static_cast<std::uint8_t>(base));
-    return photo;
+    return photograph_of(drawn);
 }
 
 }  // namespace

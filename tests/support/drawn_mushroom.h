@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/surface/codecs.h"
 #include "core/trace/form.h"
 #include "core/trace/gesture.h"
 #include "core/trace/photo.h"
@@ -170,6 +172,18 @@ inline DrawnForm drawn_form(trace::Form form) {
     if (form == trace::Form::puffball) dome(0.34, 0.62);
     if (form == trace::Form::club) dome(0.11, 0.88);
     return drawn;
+}
+
+/// Returns a photograph of it, pale before green.
+inline Picture photograph_of(const DrawnMushroom& drawn) {
+    const trace::Mask mask = drawn.mask();
+    Picture photo{drawn.side, drawn.side, {}};
+    photo.rgb.reserve(3 * mask.inside.size());
+    for (const std::uint8_t inside : mask.inside)
+        for (const int base :
+             {inside != 0 ? 190 : 40, inside != 0 ? 150 : 90, inside != 0 ? 110 : 30})
+            photo.rgb.push_back(static_cast<std::uint8_t>(base));
+    return photo;
 }
 
 }  // namespace sporeprint

@@ -20,6 +20,7 @@
 #include "core/params/reader.h"
 #include "core/params/value.h"
 #include "tests/support/atlas.h"
+#include "tests/support/drawn_mushroom.h"
 #include "tests/support/meshes.h"
 #include "tests/support/photographs.h"
 #include "tests/support/refusals.h"
@@ -417,6 +418,22 @@ TEST(SpeciesFromPhoto, OfAnOutlineThatCannotBeGrownIsAStretchedTemplate) {
         Text<64>(trace::has_face(spec.form) ? "morchella_esculenta" : "boletus_edulis");
     EXPECT_TRUE(names(refusal([&] { static_cast<void>(found_in(photo, spec, photo.truth)); }),
                       "/template"));
+}
+
+TEST(SpeciesFromPhoto, OfALineAcrossTheCapAloneIsProvenAtAllAges) {
+    // The outline that was found with this line is simple, but crossed itself on the way to other ages.
+    DrawnMushroom drawn;
+    drawn.side = 180;
+    drawn.pixels = 150.0;
+    drawn.bend_deg = 10.0;
+    const Photograph photo{photograph_of(drawn), {}, {}};
+    trace::Gesture gesture;
+    gesture.axis = {{96, 39}, {100, 30}};
+    gesture.cap = {{60, 55}, {130, 65}};
+    const trace::TraceSpec spec = spec_of(gesture);
+    const SpeciesFromPhoto found = found_in(photo, spec, std::nullopt);
+    EXPECT_TRUE(found.whole.certificate.simple);
+    EXPECT_EQ(found.traced.method, trace::TraceMethod::stretched);
 }
 
 TEST(SpeciesFromPhoto, TakesALineFromTheTopTheOtherWayRoundAndWarns) {
