@@ -13,6 +13,7 @@
 #include "api/http/schemas.h"
 #include "api/http/text.h"
 #include "api/products/mix.h"
+#include "api/products/world_maps.h"
 #include "api/products/worlds.h"
 #include "core/params/describe.h"
 #include "core/plant/wood.h"
@@ -144,6 +145,18 @@ Value parameters_of(const Route& route, const DocumentInputs& inputs) {
             "immutable, any other is 410 with the canonical address of today's.",
             object({{"type", "string"}, {"maxLength", longest_world}}),
             atlas.worlds().front().id.string() + ",seed=7"));
+    if (has("{time}"))
+        parameters.push(path_parameter(
+            "time",
+            "A year from y0 to y200, with a day from d1 to d365 for "
+            "what changes from day to day.",
+            object({{"type", "string"}, {"pattern", "^y\\d{1,3}(d\\d{1,3})?$"}}), "y80d270"));
+    if (has("{map}"))
+        parameters.push(path_parameter(
+            "map", "Which map.",
+            object({{"type", "string"},
+                    {"enum", map_names(pattern.ends_with(".r16") ? MapFile::r16 : MapFile::png)}}),
+            "height"));
     if (is_cached(route) && is_get(route) && !has("{world}"))
         parameters.push(query_parameter(
             "v", false,

@@ -212,6 +212,7 @@ struct Service::Parts {
           correspondence_ready(context),
           documents(context.atlas, context.responses, options, route_table()) {
         correspondence_ready.caches = computed_inline(*store);
+        correspondence_ready.has_prerequisites = true;
     }
 };
 

@@ -206,6 +206,7 @@ api::ServiceOptions service_options_of(const Options& options, RepeatedWarning& 
     result.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
     result.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
     result.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
+    result.world_cache_bytes = static_cast<std::size_t>(options.world_cache_mb) << 20;
     result.assets = page_folder(options);
     result.store = options.store.string();
     result.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;

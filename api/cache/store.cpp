@@ -4,6 +4,7 @@
 
 #include "core/atlas/atlas.h"
 #include "core/silhouette/morph_set.h"
+#include "core/world/ground.h"
 
 namespace sporeprint::api {
 
@@ -53,14 +54,16 @@ Store::Store(const ServiceOptions& options)
       images(options.image_cache_bytes, [](const Painted& painted) { return weight_of(painted); }),
       morphs(options.morph_cache_bytes,
              [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }),
-      offspring(offspring_bytes, [](const Bred& bred) { return weight_of(*bred); }) {
+      offspring(offspring_bytes, [](const Bred& bred) { return weight_of(*bred); }),
+      grounds(options.world_cache_bytes,
+              [](const SharedGround& ground) { return ground->bytes(); }) {
     if (!options.store.empty())
         directory.emplace(options.store, options.store_bytes, options.store_event);
 }
 
 void Store::measure() {
     const CacheStats of_responses = responses.stats(), of_images = images.cache().stats(),
-                     of_morphs = morphs.cache().stats();
+                     of_morphs = morphs.cache().stats(), of_worlds = grounds.cache().stats();
     counters.glb_cache_bytes = of_responses.bytes;
     counters.glb_cache_entries = of_responses.entries;
     counters.glb_evictions = of_responses.evictions;
@@ -70,6 +73,9 @@ void Store::measure() {
     counters.morph_cache_bytes = of_morphs.bytes;
     counters.morph_cache_entries = of_morphs.entries;
     counters.morph_evictions = of_morphs.evictions;
+    counters.world_cache_bytes = of_worlds.bytes;
+    counters.world_cache_entries = of_worlds.entries;
+    counters.world_evictions = of_worlds.evictions;
     if (!directory) return;
     const DirectoryStats of_directory = directory->stats();
     counters.store_hits = of_directory.hits;
@@ -156,6 +162,14 @@ JobContext::JobContext(Store& store, std::stop_token stop, const Observer& obser
         Requested requested;
         return ask<Atlas>(store_.offspring, key, make, execution_.stop, requested);
     };
+    execution_.caches.grounds = [this](const std::string& key,
+                                       const std::function<SharedGround()>& make) {
+        Requested requested;
+        SharedGround ground = ask<Ground>(store_.grounds, key, make, execution_.stop, requested);
+        count(store_.counters.ground_hits, store_.counters.ground_misses, requested.hit);
+        note(worlds_, cache_member("sporeprint-worlds", requested.hit, requested.stored));
+        return ground;
+    };
 }
 
 void JobContext::note(std::string& said, std::string member) {
@@ -174,7 +188,13 @@ void JobContext::count_known_morphs() {
 
 std::string JobContext::cache_status() const {
     const std::lock_guard lock(mutex_);
-    return morphs_ + (morphs_.empty() || images_.empty() ? "" : ", ") + images_;
+    std::string members;
+    for (const std::string* one : {&worlds_, &morphs_, &images_}) {
+        if (one->empty()) continue;
+        if (!members.empty()) members += ", ";
+        members += *one;
+    }
+    return members;
 }
 
 }  // namespace sporeprint::api

@@ -26,6 +26,7 @@ using Images = std::shared_ptr<const ImageSet>;
 using Painting = std::shared_ptr<const RawImages>;
 using Morph = std::shared_ptr<const MorphSet>;  ///< the correspondence of a set of species
 using Bred = std::shared_ptr<const Atlas>;      ///< one bred species
+using SharedGround = std::shared_ptr<const Ground>;
 
 /// The values of the image cache: encoded files, and the paintings from which images of mixes are
 /// blended. Both share one budget.
@@ -44,6 +45,7 @@ struct Store {
     ComputingCache<Painted> images;
     ComputingCache<Morph> morphs;
     ComputingCache<Bred> offspring;
+    ComputingCache<SharedGround> grounds;
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
@@ -97,7 +99,7 @@ class JobContext {
     Store& store_;
     ExecutionContext execution_;
     mutable std::mutex mutex_;
-    std::string morphs_, images_;  ///< guarded by mutex_
+    std::string morphs_, images_, worlds_;  ///< guarded by mutex_
 };
 
 }  // namespace sporeprint::api

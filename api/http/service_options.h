@@ -18,6 +18,7 @@ struct ServiceOptions {
     std::size_t cache_bytes = 256u << 20;
     std::size_t image_cache_bytes = 128u << 20;
     std::size_t morph_cache_bytes = 16u << 20;
+    std::size_t world_cache_bytes = 128u << 20;
     std::filesystem::path assets;  ///< folder of the built page; empty for none
     std::filesystem::path store;   ///< folder in which generated files are stored; empty for none
     std::uint64_t store_bytes = std::uint64_t{1} << 30;
@@ -38,9 +39,11 @@ struct Counters {
     std::atomic<std::uint64_t> image_hits{0}, image_misses{0};
     std::atomic<std::uint64_t> painting_hits{0}, painting_misses{0};  ///< cached beside the images
     std::atomic<std::uint64_t> morph_hits{0}, morph_misses{0};
+    std::atomic<std::uint64_t> ground_hits{0}, ground_misses{0};
     std::atomic<std::uint64_t> glb_cache_bytes{0}, glb_cache_entries{0}, glb_evictions{0};
     std::atomic<std::uint64_t> image_cache_bytes{0}, image_cache_entries{0}, image_evictions{0};
     std::atomic<std::uint64_t> morph_cache_bytes{0}, morph_cache_entries{0}, morph_evictions{0};
+    std::atomic<std::uint64_t> world_cache_bytes{0}, world_cache_entries{0}, world_evictions{0};
     std::atomic<std::uint64_t> store_hits{0}, store_misses{0}, store_damaged{0}, store_unwritten{0};
     std::atomic<std::uint64_t> store_bytes{0}, store_entries{0}, store_evictions{0};
 };

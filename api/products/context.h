@@ -31,7 +31,8 @@ struct Context {
     std::shared_ptr<Library> library;  ///< nullptr if the service has none
     bool has_guests =
         false;  ///< `atlas` has species of the library, which their owners may withdraw
-    bool has_drafts = false;  ///< among them drafts, which only some may see
+    bool has_drafts = false;         ///< among them drafts, which only some may see
+    bool has_prerequisites = false;  ///< a warm-up job has just computed what the request needs
 };
 
 /// A request with its route.

@@ -318,6 +318,9 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
     if (any) return unchanged(etags.front());
     if (request.method == "HEAD") return unmade(context, request, std::move(head));
 
+    if (resource.prerequisite && !context.has_prerequisites)
+        if (std::optional<Job> job = resource.prerequisite(store)) return *std::move(job);
+
     ++store.counters.glb_misses;
     take_header(head, "Cache-Control");
     return generation_job(context, std::move(resource), std::move(head), cost, takes_gzip,

@@ -41,6 +41,10 @@ struct Resource {
     /// the correspondence first.
     std::optional<Cost> guess;
 
+    /// Returns the job that computes what generating it needs first, or nothing if that is cached: for what takes so
+    /// long that requests wait for it without a thread, such as the ground of a world. May be empty.
+    std::function<std::optional<Job>(Store&)> prerequisite{};
+
     /// Generates the body. Called on any thread, at most once at a time.
     std::function<Body(JobContext&)> make;
 };

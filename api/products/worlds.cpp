@@ -11,6 +11,7 @@
 #include "api/http/schemas.h"
 #include "api/products/presets.h"
 #include "api/products/resource.h"
+#include "api/products/world_maps.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/schema.h"
@@ -54,32 +55,6 @@ struct YearParams {
 };
 static_assert(well_described<YearParams>());
 
-/// Returns the query of a world; `v` is refused with the place where it belongs.
-Pairs query_of(const Target& target, ValidationErrors& errors) {
-    Pairs query;
-    for (const auto& pair : target.query) {
-        if (pair.first == "v")
-            errors.add(400, "v", "of a world ends its text in the path: ',v=' and the token");
-        else
-            query.push_back(pair);
-    }
-    return query;
-}
-
-/// Returns the resource of a world that has an ending such as "/weather.json" and a query.
-Resource resource_of(const Context& context, const WorldRequest& requested,
-                     const std::string& ending, const std::string& query) {
-    Resource resource;
-    resource.version = preset_token<Worlds>(*context.atlas, requested.spec.preset);
-    const std::string text = world_text(requested.spec, *context.atlas, resource.version);
-    resource.address = with_query(folder_of(Worlds::all) + text + ending, query);
-    resource.key = Worlds::one + with_query(ending, query) + ' ' + resource.version + '\n' +
-                   requested.spec.preset + '\n' + canonical_text(requested.spec.params);
-    resource.type = json;
-    resource.requested_version = requested.version;
-    return resource;
-}
-
 Value describe_world(const Context& context, const WorldSpec& spec, const std::string& version) {
     const std::string text = world_text(spec, *context.atlas, version),
                       folder = folder_of(Worlds::all) + text;
@@ -90,6 +65,7 @@ Value describe_world(const Context& context, const WorldSpec& spec, const std::s
         .set("preset", spec.preset)
         .set("effective", write(spec.params))
         .set("years", Value(Value::Array{0, last_year}))
+        .set("maps", map_list(context.responses, folder + "/y0d1/maps/"))
         .set("links", Value::object()
                           .set("self", context.responses.link(folder + ".json"))
                           .set("weather", context.responses.link(folder + "/weather.json"))
@@ -153,11 +129,11 @@ Plan plan_description(RouteCall& call) {
     Context& context = call.context;
     const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
     std::vector<Problem> problems;
-    const Pairs query = query_of(call.target, call.errors);
+    const Pairs query = query_of_world(call.target, call.errors);
     QueryReader(query, problems).refuse_the_rest();
     call.errors.add(400, problems);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    Resource resource = resource_of(context, requested, ".json", {});
+    Resource resource = world_resource(context, requested, ".json", {});
     resource.file_name = requested.spec.preset + ".json";
     resource.estimate_cost = [](const Caches&) { return Cost{.base = 50}; };
     resource.make = [&context, spec = requested.spec, version = resource.version](JobContext& job) {
@@ -172,13 +148,13 @@ Plan plan_weather(RouteCall& call) {
     const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
     YearParams params;
     std::vector<Problem> problems;
-    read_query(query_of(call.target, call.errors), params, problems);
+    read_query(query_of_world(call.target, call.errors), params, problems);
     call.errors.add(400, problems);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    Resource resource = resource_of(context, requested, "/weather.json", query_text(params));
+    Resource resource = world_resource(context, requested, "/weather.json", query_text(params));
     resource.file_name =
         requested.spec.preset + "_weather_" + std::to_string(params.year) + ".json";
-    resource.estimate_cost = [](const Caches&) { return Cost{.base = 600}; };
+    resource.estimate_cost = [](const Caches&) { return Cost{.base = 400}; };
     resource.make =
         [spec = requested.spec, year = params.year,
          text = world_text(requested.spec, *context.atlas, resource.version)](JobContext& job) {
@@ -222,8 +198,7 @@ constexpr Route routes[] = {
      .media_type = "application/schema+json",
      .document =
          [](const DocumentInputs&) {
-             return from_preset<ClimateParams>(
-                 schema_document<WorldParams>("Parameters of a world"));
+             return from_preset<WorldPreset>(schema_document<WorldParams>("Parameters of a world"));
          }},
     {.kind = RouteKind::product,
      .method = "GET",
@@ -242,6 +217,32 @@ constexpr Route routes[] = {
      .response_schema = "weather",
      .query_schema = [](const Atlas&) { return schema<YearParams>(); },
      .plan = plan_weather},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/maps/{map}.png",
+     .id = "get_map",
+     .summary = "A map of a world: grey numbers of 16 bits, or heights in the colours of "
+                "Terrarium.",
+     .media_type = "image/png",
+     .query_schema = map_query_schema,
+     .plan = plan_map<MapFile::png>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/maps/{map}.r16",
+     .id = "get_raw_map",
+     .summary = "The same numbers alone, rows from north to south, low byte first.",
+     .media_type = "application/octet-stream",
+     .query_schema = map_query_schema,
+     .plan = plan_map<MapFile::r16>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/maps/{map}.json",
+     .id = "describe_map",
+     .summary = "What the numbers of a map mean: unit, range, size, edges.",
+     .media_type = json,
+     .response_schema = "world_map",
+     .query_schema = map_query_schema,
+     .plan = plan_map<MapFile::json>},
 };
 
 void add_links(Value& links, const Atlas&) {
@@ -266,7 +267,9 @@ void add_schemas(Value& schemas, const Atlas&) {
                                            {"preset", text},
                                            {"effective", reference("schemas/world_params")},
                                            {"years", list_of(whole)},
+                                           {"maps", map_of(text)},
                                            {"links", map_of(text)}}))
+        .set("world_map", map_schema())
         .set("weather", objects({{"world", text},
                                  {"year", whole},
                                  {"days", objects({{"rain_mm", days},
@@ -309,9 +312,36 @@ std::string world_text(const WorldSpec& spec, const Atlas& atlas, std::string_vi
     return text;
 }
 
+std::vector<std::pair<std::string, std::string>> query_of_world(const Target& target,
+                                                                ValidationErrors& errors) {
+    Pairs query;
+    for (const auto& pair : target.query) {
+        if (pair.first == "v")
+            errors.add(400, "v", "of a world ends its text in the path: ',v=' and the token");
+        else
+            query.push_back(pair);
+    }
+    return query;
+}
+
+Resource world_resource(const Context& context, const WorldRequest& requested,
+                        const std::string& ending, const std::string& query) {
+    Resource resource;
+    resource.version = preset_token<Worlds>(*context.atlas, requested.spec.preset);
+    const std::string text = world_text(requested.spec, *context.atlas, resource.version);
+    resource.address = with_query(folder_of(Worlds::all) + text + ending, query);
+    resource.key = Worlds::one + with_query(ending, query) + ' ' + resource.version + '\n' +
+                   requested.spec.preset + '\n' + canonical_text(requested.spec.params);
+    resource.type = json;
+    resource.requested_version = requested.version;
+    return resource;
+}
+
 const RouteGroup world_routes = {
     .tag = "worlds",
-    .description = "Worlds: so far the weather of woods and meadows through 200 years.",
+    .description =
+        "Worlds: so far the ground of woods and meadows, and their weather through "
+        "200 years.",
     .routes = routes,
     .add_links = add_links,
     .add_schemas = add_schemas,

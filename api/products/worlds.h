@@ -5,10 +5,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "api/http/errors.h"
 #include "api/http/routes.h"
 #include "api/products/product.h"
+#include "api/products/resource.h"
 #include "core/atlas/atlas.h"
 #include "core/world/world_params.h"
 
@@ -44,6 +47,14 @@ struct WorldRequest {
 /// version  token that ends it; none if empty
 [[nodiscard]] std::string world_text(const WorldSpec& spec, const Atlas& atlas,
                                      std::string_view version = {});
+
+/// Returns the query of a route of worlds; `v` is refused with the place where it belongs.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> query_of_world(
+    const Target& target, ValidationErrors& errors);
+
+/// Returns the JSON resource of a world that has an ending, such as "/weather.json", and a canonical query.
+[[nodiscard]] Resource world_resource(const Context& context, const WorldRequest& requested,
+                                      const std::string& ending, const std::string& query);
 
 extern const RouteGroup world_routes;
 

@@ -34,6 +34,7 @@ constexpr const char* name(Step step) {
 }
 
 class Atlas;
+struct Ground;
 
 /// Called when a step begins. The caller measures time, core has no clock.
 using Observer = std::function<void(Step)>;
@@ -44,6 +45,7 @@ struct Caches {
     GetOrCompute<RawImages> paintings = uncached<RawImages>;  ///< inputs of image blending
     GetOrCompute<MorphSet> morphs = uncached<MorphSet>;  ///< correspondence of a set of species
     GetOrCompute<Atlas> offspring = uncached<Atlas>;     ///< atlases of one bred species each
+    GetOrCompute<Ground> grounds = uncached<Ground>;     ///< of worlds
 };
 
 struct ExecutionContext {

@@ -89,6 +89,7 @@ enum Purpose : std::uint32_t {
     ground_crumbs = 149,   ///< grains of soil on a clod and beside it
     crossing = 150,        ///< what an offspring has of which parent
     mutation = 151,        ///< how its genes differ from those of its parents
+    terrain = 200,         ///< place, seed and direction of each octave of a world's heights
     weather = 201,         ///< of a world: rain and warmth, day by day
 };
 
@@ -179,6 +180,7 @@ enum Purpose : std::uint32_t {
         case ground_crumbs:
         case crossing:
         case mutation:
+        case terrain:
         case weather:
             return 1;
     }

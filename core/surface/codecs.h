@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/bytes.h"
 
@@ -51,6 +53,23 @@ enum class Chroma { halved, full };
 /// rgba    4 * width * height bytes; colours are not multiplied by alpha
 /// throws  GenerationError if the encoder fails
 [[nodiscard]] Bytes png(std::span<const std::uint8_t> rgba, int width, int height);
+
+/// Keywords and texts of a file, ASCII.
+using ImageTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// Encodes numbers of 16 bits as a grey PNG file without a colour space.
+///
+/// numbers  width * height, rows from top to bottom
+/// texts    stored as tEXt
+/// throws   GenerationError if the encoder fails
+[[nodiscard]] Bytes png_of_numbers(std::span<const std::uint16_t> numbers, int width, int height,
+                                   const ImageTexts& texts);
+
+/// Encodes numbers of 24 bits, the highest byte first, as an RGB PNG file without a colour space.
+///
+/// rgb  3 * width * height bytes
+[[nodiscard]] Bytes png_of_numbers(std::span<const std::uint8_t> rgb, int width, int height,
+                                   const ImageTexts& texts);
 
 /// Returns the number of pixels that decoded_picture() will decode, as the header of the file
 /// declares it; 0 if decoded_picture() refuses the file by its header.

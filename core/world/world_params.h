@@ -7,6 +7,7 @@
 
 #include "core/params/describe.h"
 #include "core/plant/leaf.h"
+#include "core/world/terrain_params.h"
 
 namespace sporeprint {
 
@@ -61,6 +62,8 @@ static_assert(well_described<ClimateParams>());
 /// The parameters of a world. All but the seed default to those of its preset.
 struct WorldParams {
     std::uint32_t seed = 1;
+    Choice<256, 1024, 4096> extent{1024};
+    TerrainParams terrain;
     ClimateParams climate;
 
     static constexpr void fields(auto visit) {
@@ -70,6 +73,11 @@ struct WorldParams {
                              .max = 4294967295.0,
                              .doc = "The world: same seed and parameters, same world, bit for "
                                     "bit."});
+        visit(&W::extent, Info{.name = "extent",
+                               .unit = "m",
+                               .doc = "Length of each side; the world reaches half of it to the "
+                                      "north, east, south and west of its centre."});
+        visit(&W::terrain, Info{.name = "terrain", .doc = "The shape of the ground."});
         visit(&W::climate, Info{.name = "climate", .doc = "What the weather is drawn from."});
     }
     bool operator==(const WorldParams&) const = default;
@@ -81,6 +89,7 @@ struct WorldPreset {
     Text<48> id;
     Text<48> name;
     int rank = 1000;
+    TerrainParams terrain;
     ClimateParams climate;
 
     static constexpr void fields(auto visit) {
@@ -88,6 +97,7 @@ struct WorldPreset {
         visit(&P::id, info_of<LeafPreset>("id"));
         visit(&P::name, info_of<LeafPreset>("name"));
         visit(&P::rank, info_of<LeafPreset>("rank"));
+        visit(&P::terrain, info_of<WorldParams>("terrain"));
         visit(&P::climate, info_of<WorldParams>("climate"));
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
@@ -107,7 +117,10 @@ struct WorldSpec {
 
 /// Returns the parameters of a preset without overrides.
 [[nodiscard]] inline WorldParams params_of(const WorldPreset& preset) {
-    return {.seed = 1, .climate = preset.climate};
+    WorldParams params;
+    params.terrain = preset.terrain;
+    params.climate = preset.climate;
+    return params;
 }
 
 /// The last year of a world; the first one is 0.

@@ -37,6 +37,7 @@ struct Options {
     int cache_mb = 256;
     int image_cache_mb = 128;
     int morph_cache_mb = 16;
+    int world_cache_mb = 128;
     int hot_cache_mb = 64;
     int threads = 0;
     Text<1023> atlas;
@@ -81,6 +82,11 @@ struct Options {
                    .min = 0,
                    .max = 1048576,
                    .doc = "Memory for what lies between shapes that are mixed."});
+        visit(&O::world_cache_mb, Info{.name = "world_cache_mb",
+                                       .unit = "MiB",
+                                       .min = 0,
+                                       .max = 1048576,
+                                       .doc = "Memory for the ground of worlds, 2 MB each."});
         visit(&O::hot_cache_mb, Info{.name = "hot_cache_mb",
                                      .unit = "MiB",
                                      .min = 0,

@@ -355,6 +355,19 @@ void add_inspections(Cases& cases) {
     add("inspect broken JSON", glb_of("{" + ours + ",\"x\":" + list, 0));
 }
 
+void add_worlds(Cases& cases) {
+    add_get(cases, "/v1/worlds/beech/weather.json?year=80");
+    for (const char* erosion : {"0", "0.3", "1"})
+        add_get(cases, std::string("/v1/worlds/beech,terrain.erosion=") + erosion +
+                           "/y0/maps/height.json");
+    // Of a world whose ground is known.
+    const std::string maps = "/v1/worlds/spruce/y80d270/maps/";
+    for (const char* map :
+         {"height.png", "slope.png", "aspect.png?size=1024", "twi.png", "wetness.png?size=2049",
+          "streams.png", "terrarium.png?size=2049", "height.r16?size=2049", "slope.r16"})
+        cases.push_back({maps + map, get(maps + map), maps + "height.json"});
+}
+
 Cases all_cases() {
     const std::vector<std::string> swept = test::swept_species(*built_in_atlas());
     Cases cases;
@@ -368,6 +381,7 @@ Cases all_cases() {
     add_surfaces(cases, swept);
     add_inspections(cases);
     add_sets(cases);
+    add_worlds(cases);
     return cases;
 }
 

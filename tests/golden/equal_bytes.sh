@@ -62,13 +62,14 @@ plants=$(grep -cE '^[0-9a-f]{16} .* tree/' "$reference" || true)
 colonies=$(grep -cE '^[0-9a-f]{16} .* colony/' "$reference" || true)
 pictures=$(grep -cE '^[0-9a-f]{16} .* picture/' "$reference" || true)
 traces=$(grep -cE '^[0-9a-f]{16} .* trace/' "$reference" || true)
+worlds=$(grep -cE '^[0-9a-f]{16} .* world/' "$reference" || true)
 all=$(grep -cE '^[0-9a-f]{16} ' "$reference" || true)
-mushrooms=$((all - leaves - plants - colonies - pictures - traces))
+mushrooms=$((all - leaves - plants - colonies - pictures - traces - worlds))
 found="$mushrooms of $requests random mushrooms, $pictures pictures, $leaves leaves, $plants trees, \
-$colonies colonies, $traces traces"
+$colonies colonies, $traces traces, $worlds worlds"
 if [ "$mushrooms" -eq "$requests" ] && [ "$pictures" -eq $((requests / 5)) ] &&
     [ "$leaves" -ge $((requests / 10)) ] && [ "$plants" -ge $((requests / 20)) ] && [ "$colonies" -ge $((requests / 20)) ] &&
-    [ "$traces" -eq $((requests / 10)) ]; then
+    [ "$traces" -eq $((requests / 10)) ] && [ "$worlds" -eq $((requests / 50)) ]; then
     verdict ok "$found"
 else
     verdict bad "$found"

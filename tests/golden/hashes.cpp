@@ -3,12 +3,13 @@
 //   hashes check FILE             compares the hash of each golden request with the one in FILE
 //   hashes bless FILE             writes the golden hashes of this build to FILE
 //   hashes print [COUNT] [SIMD]   prints the hashes of COUNT random mushrooms, a fifth as many leaves and colonies, and a
-//                                 tenth as many trees and traces, computed with one instruction set; requests that core refuses are
+//                                 tenth as many trees and traces, some worlds, computed with one instruction set; requests that core refuses are
 //                                 printed with the refusal
 //   hashes --simd-names           prints the instruction sets of this processor
 //
 // A line of FILE is: generator_version, what is grown, its age, level of detail, texture size and hash. A leaf has its autumn
 // in place of the age, a tree its seed, a colony the number of individuals, a morph the weight of its second species.
+// The ground of a world has its seed, and its extent in place of the texture size; a year of weather has its number.
 // tests/golden/equal_bytes.sh compares what builds by other compilers print.
 
 #include <xxhash.h>
@@ -48,6 +49,8 @@
 #include "core/render/render.h"
 #include "core/trace/cut.h"
 #include "core/trace/trace.h"
+#include "core/world/maps.h"
+#include "core/world/weather.h"
 #include "tests/support/atlas.h"
 
 namespace {
@@ -248,6 +251,56 @@ void add_trees(Requests& requests) {
                     return grow_tree(spec, atlas()).glb;
                 };
             }
+}
+
+template <class T>
+void append(Bytes& bytes, const T& value) {
+    const auto* const first = reinterpret_cast<const std::uint8_t*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof value);
+}
+
+/// Returns the ground of a world, and maps of it.
+Body ground_body(const WorldParams& params) {
+    const Ground ground = ground_of(params);
+    Bytes bytes = ground.streams;
+    for (const std::int32_t height : ground.heights) append(bytes, height);
+    for (const std::uint16_t index : ground.wetness) append(bytes, index);
+    const MapFrame frame = frame_of(extent_of(params), 101);
+    for (int i = 0; name(static_cast<WorldMap>(i)); ++i)
+        for (const std::uint16_t number : map_of(static_cast<WorldMap>(i), ground, frame, 60.0))
+            append(bytes, number);
+    return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
+}
+
+Body weather_body(const WorldParams& params, int year) {
+    Bytes bytes;
+    for (const WeatherDay& day : weather_of(params.climate, params.seed, year))
+        for (const double value : {day.rain, day.temperature, day.evaporation, day.soil_water})
+            append(bytes, value);
+    return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
+}
+
+/// Adds the ground of each world, at the smallest extent and one at every extent, and some years of weather.
+void add_worlds(Requests& requests) {
+    const auto add = [&](const std::string& id, const WorldParams& params) {
+        requests[line_of("world/" + id, params.seed, 0, params.extent)] = [params] {
+            return ground_body(params);
+        };
+    };
+    for (const WorldPreset& preset : atlas().worlds()) {
+        WorldParams params = params_of(preset);
+        params.extent.value = 256;
+        add(preset.id.string(), params);
+        for (const int year : {0, 80, 200})
+            requests[line_of("weather/" + preset.id.string(), year, 0, 0)] = [params, year] {
+                return weather_body(params, year);
+            };
+    }
+    for (const int extent : {1024, 4096}) {
+        WorldParams params;
+        params.extent.value = extent;
+        add("default", params);
+    }
 }
 
 /// Adds each species' colony in its own habit, at every level of detail, small; and two on roots, instanced.
@@ -589,6 +642,7 @@ Requests golden_requests() {
     add_image_formats(requests, atlas);
     add_leaves(requests);
     add_trees(requests);
+    add_worlds(requests);
     add_colonies(requests, atlas);
     add_compressed(requests, atlas);
     add_chains(requests, atlas);
@@ -879,7 +933,25 @@ void print_trace(std::uint32_t number) {
     }
 }
 
-/// Prints the hashes of `count` random mushrooms and of leaves, trees, colonies and traces.
+/// Prints the line of a world of random ground and weather.
+void print_world(std::uint32_t number) {
+    Random random(number, 0x776f726c);
+    WorldParams params;
+    params.seed = random.bits();
+    params.extent.value = Choice<256, 1024, 4096>::values[random.bits() % 3];
+    params.terrain.relief = random.uniform(0.0, 600.0);
+    params.terrain.feature = random.uniform(50.0, 2000.0);
+    params.terrain.roughness = random.uniform(0.3, 0.7);
+    params.terrain.erosion = random.uniform();
+    params.climate.latitude_deg = random.uniform(-66.0, 66.0);
+    params.climate.rain = random.uniform(0.0, 3000.0);
+    Body body = ground_body(params);
+    for (Slice& slice : weather_body(params, static_cast<int>(random.bits() % 201)))
+        body.push_back(std::move(slice));
+    std::printf("%s %8zu  world/%u\n", hash_of(body).c_str(), size_of(body), number);
+}
+
+/// Prints the hashes of `count` random mushrooms and of leaves, trees, colonies, traces and worlds.
 ///
 /// throws  GenerationError if hardly any of the random requests can be grown
 void print(std::uint32_t count) {
@@ -892,6 +964,7 @@ void print(std::uint32_t count) {
     for (std::uint32_t number = 0; number < count / 10; ++number) print_tree(number);
     for (std::uint32_t number = 0; number < count / 5; ++number) print_colony(number, *atlas);
     for (std::uint32_t number = 0; number < count / 10; ++number) print_trace(number);
+    for (std::uint32_t number = 0; number < count / 50; ++number) print_world(number);
 }
 
 int usage() {

@@ -60,6 +60,33 @@ std::string refusal(const Bytes& file) {
     return "";
 }
 
+/// Returns the numbers of a grey PNG file of 16 bits, decoded without any conversion.
+std::vector<std::uint16_t> numbers_of(const Bytes& file) {
+    struct Source {
+        const Bytes& bytes;
+        std::size_t at = 0;
+    } source{file};
+    png_structp reader = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(reader);
+    png_set_read_fn(reader, &source, [](png_structp from, png_bytep out, png_size_t size) {
+        auto& all = *static_cast<Source*>(png_get_io_ptr(from));
+        std::memcpy(out, &all.bytes.at(all.at), size);
+        all.at += size;
+    });
+    png_read_info(reader, info);
+    const png_uint_32 width = png_get_image_width(reader, info),
+                      height = png_get_image_height(reader, info);
+    std::vector<std::uint16_t> numbers;
+    Bytes row(std::size_t{2} * width);
+    for (png_uint_32 y = 0; y < height; ++y) {
+        png_read_row(reader, row.data(), nullptr);
+        for (png_uint_32 x = 0; x < width; ++x)
+            numbers.push_back(static_cast<std::uint16_t>(256U * row[2 * x] + row[2 * x + 1]));
+    }
+    png_destroy_read_struct(&reader, &info, nullptr);
+    return numbers;
+}
+
 TEST(Codecs, PngAndLosslessWebpRoundTripExactly) {
     const Bytes rgb = slope(61, 40);
     for (const Bytes& file : {png_of(rgb, 61, 40, PNG_FORMAT_RGB), webp_of(rgb, 61, 40)}) {
@@ -68,6 +95,20 @@ TEST(Codecs, PngAndLosslessWebpRoundTripExactly) {
         EXPECT_EQ(picture.height, 40);
         EXPECT_TRUE(picture.rgb == rgb);
     }
+}
+
+TEST(Codecs, PngOfNumbersHasThemAndItsTexts) {
+    std::vector<std::uint16_t> numbers;
+    for (unsigned i = 0; i < 30 * 20; ++i) numbers.push_back(static_cast<std::uint16_t>(i * 109U));
+    const Bytes file = png_of_numbers(numbers, 30, 20, {{"Unit", "m"}, {"From", "-3.5"}});
+    // Bit depth and colour type of IHDR: 16 bits of grey.
+    EXPECT_EQ(file[24], 16);
+    EXPECT_EQ(file[25], 0);
+    const std::string text(file.begin(), file.end());
+    EXPECT_NE(text.find(std::string("tEXtUnit\0m", 10)), std::string::npos);
+    EXPECT_NE(text.find(std::string("tEXtFrom\0-3.5", 13)), std::string::npos);
+    EXPECT_EQ(text.find("sRGB"), std::string::npos) << "numbers have no colour space";
+    EXPECT_EQ(numbers_of(file), numbers);
 }
 
 TEST(Codecs, JpegRoundTripsClosely) {

@@ -217,6 +217,14 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     const { data: weather } = await client.GET("/v1/worlds/{world}/weather.json", eightieth);
     if (weather?.days.rain_mm.length !== 365) throw new Error("the year is not whole");
 
+    const here = { path: { world: "meadow,extent=256", time: "y80d270", map: "wetness" } } as const;
+    const square = { params: { ...here, query: { size: 65, bbox: "-32,-32,32,32" } } };
+    await both(client.HEAD("/v1/worlds/{world}/{time}/maps/{map}.png", square), client.GET("/v1/worlds/{world}/{time}/maps/{map}.png", { ...square, ...binary }));
+    await both(client.HEAD("/v1/worlds/{world}/{time}/maps/{map}.r16", square), client.GET("/v1/worlds/{world}/{time}/maps/{map}.r16", { ...square, ...binary }));
+    await client.HEAD("/v1/worlds/{world}/{time}/maps/{map}.json", square);
+    const { data: map } = await client.GET("/v1/worlds/{world}/{time}/maps/{map}.json", square);
+    if (map?.width !== 65 || map.step_m[0] !== 1) throw new Error("the map is not described");
+
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {
         body: picture as unknown as string,

@@ -34,6 +34,7 @@ TEST(Options, HaveDefaults) {
     EXPECT_EQ(options.cache_mb, 256);
     EXPECT_EQ(options.image_cache_mb, 128);
     EXPECT_EQ(options.morph_cache_mb, 16);
+    EXPECT_EQ(options.world_cache_mb, 128);
 }
 
 TEST(Options, AFlagOverridesAVariableWhichOverridesTheFile) {
@@ -227,11 +228,26 @@ TEST(Options, HaveHelpTexts) {
         EXPECT_TRUE(flags.insert(line.flag).second);
         EXPECT_GT(line.help.size(), 10u);
     }
-    for (const char* flag :
-         {"--host", "--port", "--cache-mb", "--image-cache-mb", "--morph-cache-mb", "--threads",
-          "--atlas", "--assets", "--metrics-port", "--log-level", "--simd", "--allow-origin",
-          "--client-connections", "--client-work", "--client-burst", "--trusted-proxies",
-          "--proxy-header", "--warm", "--base-path"})
+    for (const char* flag : {"--host",
+                             "--port",
+                             "--cache-mb",
+                             "--image-cache-mb",
+                             "--morph-cache-mb",
+                             "--world-cache-mb",
+                             "--threads",
+                             "--atlas",
+                             "--assets",
+                             "--metrics-port",
+                             "--log-level",
+                             "--simd",
+                             "--allow-origin",
+                             "--client-connections",
+                             "--client-work",
+                             "--client-burst",
+                             "--trusted-proxies",
+                             "--proxy-header",
+                             "--warm",
+                             "--base-path"})
         EXPECT_TRUE(flags.contains(flag)) << flag;
 }
 

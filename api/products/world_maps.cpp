@@ -1,0 +1,430 @@
+#include "api/products/world_maps.h"
+
+#include <array>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/http/schemas.h"
+#include "api/products/resource.h"
+#include "api/products/worlds.h"
+#include "core/params/messages.h"
+#include "core/params/query.h"
+#include "core/params/schema.h"
+#include "core/surface/codecs.h"
+#include "core/world/ground.h"
+#include "core/world/maps.h"
+#include "core/world/weather.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+/// The map whose file has the colours of Terrarium in place of grey; it shows heights.
+constexpr const char* terrarium = "terrarium";
+
+/// Returns the cost of computing the ground of a world.
+Cost cost_of_ground(const WorldParams& params) {
+    return {.base = 40'000 + static_cast<std::uint64_t>(170'000.0 * params.terrain.erosion)};
+}
+
+/// The query of a map.
+struct MapParams {
+    int size = 512;
+    Text<120> bbox;
+
+    static constexpr void fields(auto visit) {
+        using M = MapParams;
+        visit(&M::size, Info{.name = "size",
+                             .min = 64,
+                             .max = 2049,
+                             .doc = "Numbers along the longer side. The outermost ones are on the "
+                                    "edges, so that maps side by side share them."});
+        visit(&M::bbox, Info{.name = "bbox",
+                             .unit = "m",
+                             .most = 120,
+                             .doc = "West, south, east and north edge, from the centre of the "
+                                    "world: -100,-50,100,50. The whole world without it."});
+    }
+    bool operator==(const MapParams&) const = default;
+};
+static_assert(well_described<MapParams>());
+
+/// A map that a URL names.
+struct MapRequest {
+    WorldRequest world;
+    WorldMap map = WorldMap::height;
+    bool is_terrarium = false;
+    int year = 0;
+    int day = 0;  ///< 0 for maps that do not change from day to day
+    WorldBox box;
+    int size = 0;
+
+    [[nodiscard]] std::string name() const {
+        return is_terrarium ? terrarium : sporeprint::name(map);
+    }
+    [[nodiscard]] std::string time() const {
+        return day == 0 ? "y0" : 'y' + std::to_string(year) + 'd' + std::to_string(day);
+    }
+    [[nodiscard]] MapFrame frame() const { return frame_of(box, size); }
+};
+
+/// Nanoseconds of one place of a map: its value, and its part of a PNG file.
+struct PlaceCost {
+    std::uint64_t value, png;
+};
+
+PlaceCost place_cost_of(const MapRequest& request) {
+    if (request.is_terrarium) return {8, 23};
+    switch (request.map) {
+        case WorldMap::height:
+            return {8, 14};
+        case WorldMap::slope:
+        case WorldMap::aspect:
+            return {34, 29};
+        case WorldMap::twi:
+        case WorldMap::wetness:
+            return {4, 14};
+        case WorldMap::streams:
+            return {4, 4};
+    }
+    return {};
+}
+
+Cost cost_of_map(const MapRequest& request, MapFile file) {
+    if (file == MapFile::json) return {.base = 100};
+    const MapFrame frame = request.frame();
+    const auto places =
+        static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
+    const PlaceCost cost = place_cost_of(request);
+    const std::uint64_t nanoseconds = cost.value + (file == MapFile::png ? cost.png : 1);
+    return {.base = 200 + places * nanoseconds / 1000};
+}
+
+/// Reads a whole number with a letter before it, such as y80, and removes it from a text.
+std::optional<int> take_number(std::string_view& text, char letter, int least, int most) {
+    if (!text.starts_with(letter)) return std::nullopt;
+    int number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + 1, end, number);
+    if (error != std::errc() || number < least || number > most || text[1] == '-' ||
+        (text[1] == '0' && rest > text.data() + 2))
+        return std::nullopt;
+    text = {rest, static_cast<std::size_t>(end - rest)};
+    return number;
+}
+
+/// Reads the {time} of a URL into the year and the day of a request.
+void read_time(std::string_view text, MapRequest& request, ValidationErrors& errors) {
+    std::string_view rest = text;
+    const std::optional<int> year = take_number(rest, 'y', 0, last_year);
+    const std::optional<int> day =
+        rest.empty() ? std::optional(0) : take_number(rest, 'd', 1, days_of_year);
+    if (!year || !day || !rest.empty())
+        return errors.add(400, "time",
+                          in_quotes(text) + " is no time; allowed are years from y0 to y" +
+                              std::to_string(last_year) + ", and their days from y0d1 to y" +
+                              std::to_string(last_year) + 'd' + std::to_string(days_of_year));
+    if (!has_days(request.map)) return;
+    if (*day == 0)
+        errors.add(400, "time",
+                   std::string(name(request.map)) + " changes from day to day; add one, such as " +
+                       std::string(text) + "d270");
+    request.year = *year;
+    request.day = *day;
+}
+
+void read_map_name(std::string_view text, MapRequest& request, ValidationErrors& errors) {
+    request.is_terrarium = text == terrarium;
+    if (request.is_terrarium) return;
+    std::vector<std::string> names = {terrarium};
+    for (int i = 0; const char* one = name(static_cast<WorldMap>(i)); ++i) {
+        names.emplace_back(one);
+        if (text == one) {
+            request.map = static_cast<WorldMap>(i);
+            return;
+        }
+    }
+    const std::string_view meant = closest(text, names);
+    std::string list;
+    for (const std::string& one : names) (list += list.empty() ? "" : ", ") += one;
+    errors.add(
+        404, "map",
+        "there is no map " + in_quotes(text) +
+            (meant.empty() ? "; there are " + list : "; did you mean " + in_quotes(meant) + '?'));
+}
+
+/// Returns the four numbers of a bbox, or nothing if it is not of that form.
+std::optional<WorldBox> numbers_of(std::string_view text) {
+    std::array<double, 4> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t comma = i < 3 ? text.find(',') : text.size();
+        if (comma == std::string_view::npos ||
+            !read_number(std::string(text.substr(0, comma)), numbers[i]))
+            return std::nullopt;
+        numbers[i] += 0.0;  // -0 is 0
+        text.remove_prefix(std::min(text.size(), comma + 1));
+    }
+    return WorldBox{numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+std::string text_of(const WorldBox& box) {
+    return number_text(box.west) + ',' + number_text(box.south) + ',' + number_text(box.east) +
+           ',' + number_text(box.north);
+}
+
+WorldBox read_box(std::string_view text, const WorldBox& extent, ValidationErrors& errors) {
+    if (text.empty()) return extent;
+    const std::optional<WorldBox> box = numbers_of(text);
+    if (!box) {
+        errors.add(400, "bbox",
+                   in_quotes(text) +
+                       " is not four numbers: west, south, east and north in metres "
+                       "from the centre, as in -100,-50,100,50");
+        return extent;
+    }
+    if (box->east - box->west < 1.0 || box->north - box->south < 1.0)
+        errors.add(400, "bbox",
+                   in_quotes(text) +
+                       " is empty or less than a metre wide; the order is west, "
+                       "south, east, north");
+    else if (box->west < extent.west || box->south < extent.south || box->east > extent.east ||
+             box->north > extent.north)
+        errors.add(400, "bbox",
+                   in_quotes(text) + " is partly outside the world, which is " + text_of(extent));
+    else
+        return *box;
+    return extent;
+}
+
+MapRequest read_map(const RouteCall& call, ValidationErrors& errors) {
+    MapRequest request;
+    request.world = read_world(call.captured[0], *call.context.atlas, errors);
+    read_map_name(call.captured[2], request, errors);
+    read_time(call.captured[1], request, errors);
+    MapParams params;
+    std::vector<Problem> problems;
+    read_query(query_of_world(call.target, errors), params, problems);
+    errors.add(400, problems);
+    request.box = read_box(params.bbox, extent_of(request.world.spec.params), errors);
+    request.size = params.size;
+    return request;
+}
+
+/// Returns the canonical query.
+std::string query_of(const MapRequest& request) {
+    MapParams params{request.size, {}};
+    if (request.box != extent_of(request.world.spec.params))
+        params.bbox = Text<120>(text_of(request.box));
+    std::string query = query_text(params);
+    return query;
+}
+
+/// Returns the ground of a world, from its cache or computed.
+SharedGround ground_of_world(const WorldParams& params, const Caches& caches) {
+    return caches.grounds(ground_key(params),
+                          [&] { return std::make_shared<const Ground>(ground_of(params)); });
+}
+
+/// Returns the job that computes the ground of a world, if it is not cached.
+std::optional<Job> ground_job(Store& store, const WorldParams& params) {
+    const std::string key = ground_key(params);
+    if (store.grounds.cache().find(key)) return std::nullopt;
+    auto run = [&store, params](const std::stop_token& stop, const Observer& observer,
+                                const Parallel& parallel) {
+        observer(Step::resolve);
+        JobContext job(store, stop, observer, parallel);
+        static_cast<void>(ground_of_world(params, job.execution().caches));
+        return Response();
+    };
+    return Job{key, cost_of_ground(params), std::move(run), true};
+}
+
+double soil_water_on(const MapRequest& request) {
+    if (request.day == 0) return 0.0;
+    const WorldParams& params = request.world.spec.params;
+    return weather_of(params.climate, params.seed,
+                      request.year)[static_cast<std::size_t>(request.day - 1)]
+        .soil_water;
+}
+
+/// What the numbers of a map mean, beside it in a PNG file.
+ImageTexts texts_of(const MapRequest& request, const MapRange& range, const std::string& world) {
+    ImageTexts texts = {{"Title", request.name()},
+                        {"Source", world},
+                        {"Software", "Sporeprint"},
+                        {"Bounding box", text_of(request.box)}};
+    if (request.is_terrarium) {
+        texts.emplace_back("Unit", "m");
+        texts.emplace_back("Formula", "256 R + G + B / 256 - 32768");
+        return texts;
+    }
+    texts.emplace_back("From", number_text(range.from));
+    texts.emplace_back("To", number_text(range.to));
+    if (*range.unit) texts.emplace_back("Unit", range.unit);
+    return texts;
+}
+
+Bytes png_of(const MapRequest& request, const Ground& ground, const std::string& world,
+             const ExecutionContext& execution) {
+    const MapFrame frame = request.frame();
+    const ImageTexts texts = texts_of(request, range_of(request.map, ground), world);
+    if (request.is_terrarium) {
+        const std::vector<std::uint8_t> rgb = terrarium_of(ground, frame, execution.parallel);
+        execution.observer(Step::pack);
+        return png_of_numbers(rgb, frame.width, frame.height, texts);
+    }
+    const std::vector<std::uint16_t> numbers =
+        map_of(request.map, ground, frame, soil_water_on(request), execution.parallel);
+    execution.observer(Step::pack);
+    return png_of_numbers(numbers, frame.width, frame.height, texts);
+}
+
+Bytes r16_of(const MapRequest& request, const Ground& ground, const ExecutionContext& execution) {
+    const std::vector<std::uint16_t> numbers =
+        map_of(request.map, ground, request.frame(), soil_water_on(request), execution.parallel);
+    execution.observer(Step::pack);
+    Bytes out;
+    out.reserve(2 * numbers.size());
+    for (const std::uint16_t number : numbers) {
+        out.push_back(static_cast<std::uint8_t>(number & 255U));
+        out.push_back(static_cast<std::uint8_t>(number >> 8U));
+    }
+    return out;
+}
+
+const char* ending_of(MapFile file) {
+    switch (file) {
+        case MapFile::png:
+            return ".png";
+        case MapFile::r16:
+            return ".r16";
+        case MapFile::json:
+            return ".json";
+    }
+    return "";
+}
+
+const char* type_of(MapFile file) {
+    switch (file) {
+        case MapFile::png:
+            return "image/png";
+        case MapFile::r16:
+            return "application/octet-stream";
+        case MapFile::json:
+            return "application/json";
+    }
+    return "";
+}
+
+std::string path_of(const MapRequest& request, const std::string& ending) {
+    return '/' + request.time() + "/maps/" + request.name() + ending;
+}
+
+Value describe(const Context& context, const MapRequest& request, const Ground& ground,
+               const std::string& world) {
+    const MapFrame frame = request.frame();
+    const MapRange range = range_of(request.map, ground);
+    const auto link = [&](MapFile file) {
+        return context.responses.link(with_query(
+            folder_of(Worlds::all) + world + path_of(request, ending_of(file)), query_of(request)));
+    };
+    Value links = Value::object().set("self", link(MapFile::json)).set("png", link(MapFile::png));
+    if (!request.is_terrarium) links.set("r16", link(MapFile::r16));
+    const WorldBox& box = request.box;
+    return Value::object()
+        .set("world", world)
+        .set("time", request.time())
+        .set("map", request.name())
+        .set("description", doc_of(request.map))
+        .set("unit", range.unit)
+        .set("from", range.from)
+        .set("to", range.to)
+        .set("width", frame.width)
+        .set("height", frame.height)
+        .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
+        .set("step_m", Value(Value::Array{(box.east - box.west) / (frame.width - 1),
+                                          (box.north - box.south) / (frame.height - 1)}))
+        .set("links", std::move(links));
+}
+
+}  // namespace
+
+template <MapFile File>
+Plan plan_map(RouteCall& call) {
+    Context& context = call.context;
+    const auto request = std::make_shared<const MapRequest>(read_map(call, call.errors));
+    if (File == MapFile::r16 && request->is_terrarium)
+        call.errors.add(404, "map",
+                        "terrarium is in colours, which .r16 has not; height is "
+                        "there as .r16");
+    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    Resource resource = world_resource(context, request->world, path_of(*request, ending_of(File)),
+                                       query_of(*request));
+    resource.type = type_of(File);
+    resource.file_name = request->world.spec.preset + '_' + request->name() +
+                         (request->day == 0 ? "" : '_' + request->time()) + ending_of(File);
+    resource.estimate_cost = [cost = cost_of_map(*request, File)](const Caches&) { return cost; };
+    resource.prerequisite = [request](Store& store) {
+        return ground_job(store, request->world.spec.params);
+    };
+    resource.make = [&context, request,
+                     world = world_text(request->world.spec, *context.atlas, resource.version)](
+                        JobContext& job) {
+        const ExecutionContext& execution = job.execution();
+        execution.observer(Step::resolve);
+        const SharedGround ground = ground_of_world(request->world.spec.params, execution.caches);
+        execution.observer(Step::build);
+        if constexpr (File == MapFile::json)
+            return Body{slice_of(dump(describe(context, *request, *ground, world)))};
+        else if constexpr (File == MapFile::r16)
+            return Body{Slice(std::make_shared<const Bytes>(r16_of(*request, *ground, execution)))};
+        else
+            return Body{
+                Slice(std::make_shared<const Bytes>(png_of(*request, *ground, world, execution)))};
+    };
+    return plan_resource(context, call.request, std::move(resource), call.errors);
+}
+
+template Plan plan_map<MapFile::png>(RouteCall& call);
+template Plan plan_map<MapFile::r16>(RouteCall& call);
+template Plan plan_map<MapFile::json>(RouteCall& call);
+
+Value map_query_schema(const Atlas&) { return schema<MapParams>(); }
+
+Value map_names(MapFile file) {
+    Value names = Value::array();
+    for (int i = 0; const char* one = name(static_cast<WorldMap>(i)); ++i) names.push(one);
+    if (file != MapFile::r16) names.push(terrarium);
+    return names;
+}
+
+Value map_schema() {
+    const Value text = typed("string"), number = typed("number"), whole = typed("integer");
+    return objects({{"world", text},
+                    {"time", text},
+                    {"map", text},
+                    {"description", text},
+                    {"unit", text},
+                    {"from", number},
+                    {"to", number},
+                    {"width", whole},
+                    {"height", whole},
+                    {"bbox", list_of(number)},
+                    {"step_m", list_of(number)},
+                    {"links", map_of(text)}});
+}
+
+Value map_list(const ResponseBuilder& responses, const std::string& folder) {
+    Value maps = Value::object();
+    const Value names = map_names(MapFile::json);
+    for (const Value& one : names.items())
+        maps.set(one.as_string(), responses.link(folder + one.as_string() + ".json"));
+    return maps;
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,146 @@
+#include "core/world/ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/params/canonical.h"
+#include "core/world/drainage.h"
+#include "core/world/erosion.h"
+#include "core/world/weather.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Returns a value between four nodes, linear in both directions.
+template <class T>
+double linear_at(const Grid& grid, const std::vector<T>& values, const Coordinate& x,
+                 const Coordinate& y) {
+    const T* const first = &values[grid.index(x.node, y.node)];
+    const auto along = [&](const T* row) {
+        const double west = row[0], east = row[1];
+        return west + (east - west) * x.part;
+    };
+    const double south = along(first), north = along(first + grid.side);
+    return south + (north - south) * y.part;
+}
+
+/// Returns the greatest difference of neighbours along rows and columns.
+std::int32_t greatest_step(const Grid& grid, const std::vector<std::int32_t>& heights) {
+    std::int32_t step = 0;
+    for (int row = 0; row < grid.side; ++row)
+        for (int column = 0; column < grid.side; ++column) {
+            const std::int32_t here = heights[grid.index(column, row)];
+            if (column > 0)
+                step = std::max(step, std::abs(here - heights[grid.index(column - 1, row)]));
+            if (row > 0)
+                step = std::max(step, std::abs(here - heights[grid.index(column, row - 1)]));
+        }
+    return step;
+}
+
+/// Sets what is known of the nodes within the world.
+void measure(Ground& ground, const WorldBox& extent) {
+    const Grid& grid = ground.grid;
+    const auto is_within = [&](double place) {
+        return place >= extent.west && place <= extent.east;
+    };
+    double sum = 0.0, count = 0.0;
+    std::int32_t lowest = INT32_MAX, highest = INT32_MIN;
+    for (int row = 0; row < grid.side; ++row)
+        for (int column = 0; column < grid.side; ++column) {
+            if (!is_within(grid.place(column)) || !is_within(grid.place(row))) continue;
+            const std::size_t i = grid.index(column, row);
+            sum += wetness_of(ground.wetness[i]);
+            count += 1.0;
+            lowest = std::min(lowest, ground.heights[i]);
+            highest = std::max(highest, ground.heights[i]);
+        }
+    ground.mean_wetness = sum / count;
+    // Of the weights of a spline in two directions, the negative ones add up to 9/32 at most: so far may a value
+    // lie beyond its 16 nodes, whose values differ by six steps at most.
+    const double beyond = 9.0 / 32.0 * 6.0 * greatest_step(grid, ground.heights);
+    ground.lowest = std::floor((lowest - beyond) / height_units);
+    ground.highest = std::max(std::ceil((highest + beyond) / height_units), ground.lowest + 1.0);
+}
+
+}  // namespace
+
+WorldBox extent_of(const WorldParams& params) {
+    const double half = 0.5 * params.extent;
+    return {-half, -half, half, half};
+}
+
+std::size_t Ground::bytes() const {
+    return sizeof(Ground) + heights.size() * sizeof(heights[0]) +
+           wetness.size() * sizeof(wetness[0]) + streams.size() * sizeof(streams[0]);
+}
+
+Ground ground_of(const WorldParams& params) {
+    Ground out;
+    out.grid = world_grid(params.extent);
+    out.heights = eroded(out.grid, heights_of(params.terrain, params.seed, params.extent),
+                         params.terrain.erosion);
+    const FloodedGround flood = flooded(out.grid, out.heights);
+    const std::vector<double> areas = catchments(out.grid, flood);
+    out.wetness = wetness_index(out.grid, flood, areas);
+    out.streams = streams(areas);
+    measure(out, extent_of(params));
+    return out;
+}
+
+std::string ground_key(const WorldParams& params) {
+    std::string key =
+        "ground " + std::to_string(params.seed) + ' ' + std::to_string(params.extent.value) + ' ';
+    canonical(params.terrain, key);
+    return key;
+}
+
+Coordinate coordinate_at(const Grid& grid, double metres) {
+    const double number = (metres - grid.origin) / grid.cell;
+    // The grid reaches beyond the world, so that splines have their four nodes everywhere in it.
+    const int node = std::clamp(static_cast<int>(std::floor(number)), 1, grid.side - 3);
+    const double t = number - node, t2 = t * t, t3 = t2 * t;
+    return {
+        node,
+        t,
+        {-0.5 * t + t2 - 0.5 * t3, 1.0 - 2.5 * t2 + 1.5 * t3, 0.5 * t + 2.0 * t2 - 1.5 * t3,
+         -0.5 * t2 + 0.5 * t3},
+        {-0.5 + 2.0 * t - 1.5 * t2, -5.0 * t + 4.5 * t2, 0.5 + 4.0 * t - 4.5 * t2, -t + 1.5 * t2}};
+}
+
+Place place_at(const Ground& ground, const Coordinate& x, const Coordinate& y) {
+    const std::int32_t* row = &ground.heights[ground.grid.index(x.node - 1, y.node - 1)];
+    Place sum;
+    for (std::size_t j = 0; j < 4; ++j, row += ground.grid.side) {
+        const double h[] = {static_cast<double>(row[0]), static_cast<double>(row[1]),
+                            static_cast<double>(row[2]), static_cast<double>(row[3])};
+        const auto weighted = [&](const std::array<double, 4>& w) {
+            return w[0] * h[0] + w[1] * h[1] + w[2] * h[2] + w[3] * h[3];
+        };
+        const double value = weighted(x.value);
+        sum.height += y.value[j] * value;
+        sum.east += y.value[j] * weighted(x.rise);
+        sum.north += y.rise[j] * value;
+    }
+    const double per_metre = 1.0 / (height_units * ground.grid.cell);
+    return {sum.height / height_units, sum.east * per_metre, sum.north * per_metre};
+}
+
+double wetness_index_at(const Ground& ground, const Coordinate& x, const Coordinate& y) {
+    return linear_at(ground.grid, ground.wetness, x, y) / wetness_units - wetness_offset;
+}
+
+double stream_at(const Ground& ground, const Coordinate& x, const Coordinate& y) {
+    return linear_at(ground.grid, ground.streams, x, y);
+}
+
+double wetness_on(const Ground& ground, double index, double soil_water) {
+    constexpr double transmissivity_depth = 25.0, dry = 100.0;  // mm
+    const double deficit =
+        most_soil_water - soil_water + transmissivity_depth * (ground.mean_wetness - index);
+    return std::clamp(1.0 - deficit / dry, 0.0, 1.0);
+}
+
+}  // namespace sporeprint
