@@ -42,7 +42,7 @@ export class Generator {
         if (schema.enum) return dice.pick(schema.enum);
         if ((name === "a" || name === "b") && schema.oneOf) return dice.pick(dice.pick(this.lists.families)); // a parent
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
-        if (name === "lod") return dice.pick(["0", "3"]);
+        if (name === "lod" && schema.type === "string") return dice.pick(["0", "3"]);
         if (name === "bbox") return dice.pick(["", "-32,-16,32,16", "0,0,1,100.5"]);
         if (name === "species") return this.someSpecies();
         if (name === "photo") return dice.pick(this.lists.photos);
