@@ -87,7 +87,7 @@ StaticDocuments::StaticDocuments(std::shared_ptr<const Atlas> atlas,
         api::document("text/plain; charset=utf-8",
                       "Sporeprint grows mushrooms. The page is not installed here; the API is:\n"
                       "  GET /v1/species\n  GET /v1/mushrooms/<species>.glb?age=0.6&seed=7\n  "
-                      "GET /v1/leaves\n  GET /v1/trees\n  GET /openapi.json\n",
+                      "GET /v1/leaves\n  GET /v1/trees\n  GET /v1/worlds\n  GET /openapi.json\n",
                       revalidated);
 }
 
