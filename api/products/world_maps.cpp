@@ -352,6 +352,24 @@ Value describe(const Context& context, const MapRequest& request, const Ground& 
         .set("links", std::move(links));
 }
 
+/// Returns the bytes of a file of a map.
+Slice slice_of_map(MapFile file, const Context& context, const MapRequest& request,
+                   const Ground& ground, const std::string& world,
+                   const ExecutionContext& execution) {
+    const auto shared = [](Bytes bytes) {
+        return Slice(std::make_shared<const Bytes>(std::move(bytes)));
+    };
+    switch (file) {
+        case MapFile::png:
+            return shared(png_of(request, ground, world, execution));
+        case MapFile::r16:
+            return shared(r16_of(request, ground, execution));
+        case MapFile::json:
+            break;
+    }
+    return slice_of(dump(describe(context, request, ground, world)));
+}
+
 }  // namespace
 
 template <MapFile File>
@@ -379,13 +397,7 @@ Plan plan_map(RouteCall& call) {
         execution.observer(Step::resolve);
         const SharedGround ground = ground_of_world(request->world.spec.params, execution.caches);
         execution.observer(Step::build);
-        if constexpr (File == MapFile::json)
-            return Body{slice_of(dump(describe(context, *request, *ground, world)))};
-        else if constexpr (File == MapFile::r16)
-            return Body{Slice(std::make_shared<const Bytes>(r16_of(*request, *ground, execution)))};
-        else
-            return Body{
-                Slice(std::make_shared<const Bytes>(png_of(*request, *ground, world, execution)))};
+        return Body{slice_of_map(File, context, *request, *ground, world, execution)};
     };
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
