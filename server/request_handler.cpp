@@ -26,6 +26,9 @@ constexpr const char* alive = "alive\n";
 /// budget is overdrawn.
 constexpr std::uint64_t expensive_reading = 1000;
 
+/// Jobs of more work than this are overtaken by others, such as the ground of a world.
+constexpr std::uint64_t lengthy_work = 100'000;
+
 constexpr std::string_view operational_paths[] = {"/livez", "/readyz", "/metrics"};
 
 /// Returns the operational path of a request, whose path must not be percent-encoded; an empty text
@@ -361,7 +364,9 @@ std::optional<RequestHandler::SharedJobs::Ticket> RequestHandler::join(
             std::chrono::duration<double, std::milli>(Clock::now() - joined).count();
         return run_job(*state->service, *job, std::move(stop), queue);
     };
-    return single_flight_.join(job->key, work, std::move(then));
+    const TaskLength length =
+        job->cost.work() < lengthy_work ? TaskLength::brief : TaskLength::lengthy;
+    return single_flight_.join(job->key, work, std::move(then), length);
 }
 
 api::Response RequestHandler::deliver(const api::Service& service, const api::Request& request,

@@ -86,7 +86,8 @@ class SingleFlight {
     ///
     /// returns  the ticket; nothing, and `then` is not called, if the queue or the list of waiters
     ///          is full
-    std::optional<Ticket> join(const std::string& key, Work work, OnComplete then) {
+    std::optional<Ticket> join(const std::string& key, Work work, OnComplete then,
+                               TaskLength length = TaskLength::brief) {
         std::shared_ptr<Computation> completed;
         {
             const std::lock_guard lock(mutex_);
@@ -105,7 +106,7 @@ class SingleFlight {
                 computation->number = ++last_number_;
                 computation->work = std::move(work);
                 const std::optional<ThreadPool::Ticket> ticket =
-                    pool_.submit([this, computation] { run_computation(computation); });
+                    pool_.submit([this, computation] { run_computation(computation); }, length);
                 if (!ticket) return std::nullopt;
                 computation->ticket = *ticket;
                 ++running_;

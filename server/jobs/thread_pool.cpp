@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include "server/operations/machine.h"
@@ -69,13 +70,21 @@ ThreadPool::~ThreadPool() {
     threads_.clear();  // joins
 }
 
-std::optional<ThreadPool::Ticket> ThreadPool::submit(std::function<void()> task) {
+std::optional<ThreadPool::Ticket> ThreadPool::submit(std::function<void()> task,
+                                                     TaskLength length) {
     Ticket ticket = 0;
     {
         const std::lock_guard lock(mutex_);
         if (stopping_ || queue_.size() >= longest_queue_ + idle_) return std::nullopt;
         ticket = ++last_ticket_;
-        queue_.push_back({ticket, std::move(task)});
+        auto place = queue_.end();
+        while (length == TaskLength::brief && place != queue_.begin()) {
+            Task& before = *std::prev(place);
+            if (before.length == TaskLength::brief || before.overtaken == most_overtaking) break;
+            ++before.overtaken;
+            --place;
+        }
+        queue_.insert(place, Task{ticket, std::move(task), length});
     }
     wake_.notify_one();
     return ticket;

@@ -17,10 +17,17 @@
 
 namespace sporeprint::server {
 
-/// Runs tasks in the order of submission. Thread-safe.
+/// Whether others may be run before a task that waits, since it takes long compared with them.
+enum class TaskLength { brief, lengthy };
+
+/// Runs tasks in the order of submission, except that brief ones overtake lengthy ones: a request of milliseconds does
+/// not wait behind tens of others that take a third of a second each. Thread-safe.
 class ThreadPool {
   public:
     using Ticket = std::uint64_t;
+
+    /// Most tasks that overtake one lengthy task, so that it is run in the end.
+    static constexpr int most_overtaking = 100;
 
     /// count          threads, at least 1
     /// longest_queue  tasks that may wait while no thread is idle
@@ -31,10 +38,10 @@ class ThreadPool {
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    /// Appends a task to the queue. It must not throw.
+    /// Adds a task to the queue. It must not throw.
     ///
     /// returns  its ticket; nothing if the queue is full
-    std::optional<Ticket> submit(std::function<void()> task);
+    std::optional<Ticket> submit(std::function<void()> task, TaskLength length = TaskLength::brief);
 
     /// Removes a task from the queue. Returns false if it is no longer queued, because it has begun
     /// or was removed before.
@@ -57,6 +64,8 @@ class ThreadPool {
     struct Task {
         Ticket ticket = 0;
         std::function<void()> run;
+        TaskLength length = TaskLength::brief;
+        int overtaken = 0;  ///< how often, if it is lengthy
     };
 
     void work();

@@ -84,6 +84,40 @@ TEST(ThreadPool, RefusesTasksBeyondTheQueue) {
     gate.release(5);
 }
 
+/// Submits tasks to a pool of one thread that is busy, and returns the names of their order.
+std::string order_of(const std::vector<std::pair<char, TaskLength>>& tasks) {
+    std::counting_semaphore<> gate(0);
+    std::string order;
+    std::latch over(static_cast<std::ptrdiff_t>(tasks.size()));
+    ThreadPool pool(1, tasks.size() + 1);
+    EXPECT_TRUE(pool.submit([&] { gate.acquire(); }));
+    EXPECT_TRUE(soon([&] { return pool.busy() == 1 && pool.waiting() == 0; }));
+    for (const auto& [name, length] : tasks)
+        EXPECT_TRUE(pool.submit(
+            [&order, &over, name = name] {
+                order += name;
+                over.count_down();
+            },
+            length));
+    gate.release();
+    over.wait();
+    return order;
+}
+
+TEST(ThreadPool, RunsBriefTasksBeforeLengthyOnesThatWait) {
+    constexpr TaskLength brief = TaskLength::brief, lengthy = TaskLength::lengthy;
+    EXPECT_EQ(order_of({{'a', brief}, {'b', brief}, {'c', brief}}), "abc");
+    EXPECT_EQ(order_of({{'A', lengthy}, {'B', lengthy}, {'c', brief}, {'d', brief}}), "cdAB");
+    EXPECT_EQ(order_of({{'a', brief}, {'B', lengthy}, {'c', brief}, {'D', lengthy}, {'e', brief}}),
+              "aceBD");
+}
+
+TEST(ThreadPool, RunsALengthyTaskInTheEnd) {
+    std::vector<std::pair<char, TaskLength>> tasks = {{'A', TaskLength::lengthy}};
+    tasks.insert(tasks.end(), 3 * ThreadPool::most_overtaking, {'b', TaskLength::brief});
+    EXPECT_EQ(order_of(tasks).find('A'), std::size_t{ThreadPool::most_overtaking});
+}
+
 TEST(ThreadPool, SharesWorkWithIdleThreads) {
     std::latch together(3);  // passed only while three threads wait in it
     std::atomic<int> done{0};
