@@ -252,6 +252,12 @@ double soil_water_on(const MapRequest& request) {
         .soil_water;
 }
 
+/// Returns how the value of a place follows from its number or its colour.
+const char* formula_of(const MapRequest& request) {
+    return request.is_terrarium ? "256 R + G + B / 256 - 32768"
+                                : "from + (to - from) * number / 65535";
+}
+
 /// What the numbers of a map mean, beside it in a PNG file.
 ImageTexts texts_of(const MapRequest& request, const MapRange& range, const std::string& world) {
     ImageTexts texts = {{"Title", request.name()},
@@ -260,9 +266,10 @@ ImageTexts texts_of(const MapRequest& request, const MapRange& range, const std:
                         {"Bounding box", text_of(request.box)}};
     if (request.is_terrarium) {
         texts.emplace_back("Unit", "m");
-        texts.emplace_back("Formula", "256 R + G + B / 256 - 32768");
+        texts.emplace_back("Formula", formula_of(request));
         return texts;
     }
+    texts.emplace_back("Formula", formula_of(request));
     texts.emplace_back("From", number_text(range.from));
     texts.emplace_back("To", number_text(range.to));
     if (*range.unit) texts.emplace_back("Unit", range.unit);
@@ -342,13 +349,16 @@ Value describe(const Context& context, const MapRequest& request, const Ground& 
         .set("map", request.name())
         .set("description", doc_of(request.map))
         .set("unit", range.unit)
+        .set("formula", formula_of(request))
         .set("from", range.from)
         .set("to", range.to)
+        .set("rows", "from north to south, each from west to east")
         .set("width", frame.width)
         .set("height", frame.height)
         .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
         .set("step_m", Value(Value::Array{(box.east - box.west) / (frame.width - 1),
                                           (box.north - box.south) / (frame.height - 1)}))
+        .set("ground_step_m", world_grid(request.world.spec.params.extent).cell)
         .set("links", std::move(links));
 }
 
@@ -387,15 +397,20 @@ Plan plan_map(RouteCall& call) {
     resource.file_name = request->world.spec.preset + '_' + request->name() +
                          (request->day == 0 ? "" : '_' + request->time()) + ending_of(File);
     resource.estimate_cost = [cost = cost_of_map(*request, File)](const Caches&) { return cost; };
-    resource.prerequisite = [request](Store& store) {
-        return ground_job(store, request->world.spec.params);
-    };
-    resource.make = [&context, request,
+    // The range of heights alone depends on the ground.
+    const bool needs_ground = File != MapFile::json || request->map == WorldMap::height;
+    if (needs_ground)
+        resource.prerequisite = [request](Store& store) {
+            return ground_job(store, request->world.spec.params);
+        };
+    resource.make = [&context, request, needs_ground,
                      world = world_text(request->world.spec, *context.atlas, resource.version)](
                         JobContext& job) {
         const ExecutionContext& execution = job.execution();
         execution.observer(Step::resolve);
-        const SharedGround ground = ground_of_world(request->world.spec.params, execution.caches);
+        const SharedGround ground =
+            needs_ground ? ground_of_world(request->world.spec.params, execution.caches)
+                         : std::make_shared<const Ground>();
         execution.observer(Step::build);
         return Body{slice_of_map(File, context, *request, *ground, world, execution)};
     };
@@ -422,20 +437,27 @@ Value map_schema() {
                     {"map", text},
                     {"description", text},
                     {"unit", text},
+                    {"formula", text},
                     {"from", number},
                     {"to", number},
+                    {"rows", text},
                     {"width", whole},
                     {"height", whole},
                     {"bbox", list_of(number)},
                     {"step_m", list_of(number)},
+                    {"ground_step_m", number},
                     {"links", map_of(text)}});
 }
 
-Value map_list(const ResponseBuilder& responses, const std::string& folder) {
+Value map_list(const ResponseBuilder& responses, const std::string& world) {
     Value maps = Value::object();
     const Value names = map_names(MapFile::json);
-    for (const Value& one : names.items())
-        maps.set(one.as_string(), responses.link(folder + one.as_string() + ".json"));
+    for (const Value& one : names.items()) {
+        const std::string& map = one.as_string();
+        const bool is_daily = map == name(WorldMap::wetness);
+        maps.set(map,
+                 responses.link(world + (is_daily ? "/y0d1" : "/y0") + "/maps/" + map + ".json"));
+    }
     return maps;
 }
 

@@ -31,7 +31,7 @@ Plan plan_map(RouteCall& call);
 
 /// Returns what each map shows, by name, as the description of a world lists it.
 ///
-/// folder  URL of the maps of a time, which ends with '/'
-[[nodiscard]] Value map_list(const ResponseBuilder& responses, const std::string& folder);
+/// world  URL of the world, without an ending
+[[nodiscard]] Value map_list(const ResponseBuilder& responses, const std::string& world);
 
 }  // namespace sporeprint::api

@@ -65,7 +65,7 @@ Value describe_world(const Context& context, const WorldSpec& spec, const std::s
         .set("preset", spec.preset)
         .set("effective", write(spec.params))
         .set("years", Value(Value::Array{0, last_year}))
-        .set("maps", map_list(context.responses, folder + "/y0d1/maps/"))
+        .set("maps", map_list(context.responses, folder))
         .set("links", Value::object()
                           .set("self", context.responses.link(folder + ".json"))
                           .set("weather", context.responses.link(folder + "/weather.json"))
@@ -86,14 +86,14 @@ Value summary(std::span<const WeatherDay> days) {
         sum.temperature += day.temperature;
         sum.evaporation += day.evaporation;
         sum.soil_water += day.soil_water;
-        wet_days += day.rain > 0.0 ? 1 : 0;
+        wet_days += rounded(day.rain) > 0.0 ? 1 : 0;  // less than that is dew
     }
     const auto count = static_cast<double>(days.size());
     return Value::object()
         .set("rain_mm", rounded(sum.rain))
         .set("rain_days", wet_days)
         .set("temperature_c", rounded(sum.temperature / count))
-        .set("evaporation_mm", rounded(sum.evaporation))
+        .set("potential_evaporation_mm", rounded(sum.evaporation))
         .set("soil_water_mm", rounded(sum.soil_water / count));
 }
 
@@ -118,7 +118,7 @@ Value describe_weather(const WorldSpec& spec, const std::string& text, int numbe
         .set("days", Value::object()
                          .set("rain_mm", daily(year, &WeatherDay::rain))
                          .set("temperature_c", daily(year, &WeatherDay::temperature))
-                         .set("evaporation_mm", daily(year, &WeatherDay::evaporation))
+                         .set("potential_evaporation_mm", daily(year, &WeatherDay::evaporation))
                          .set("soil_water_mm", daily(year, &WeatherDay::soil_water)))
         .set("months", std::move(months))
         .set("whole_year", summary(days))
@@ -212,7 +212,9 @@ constexpr Route routes[] = {
      .method = "GET",
      .pattern = "/v1/worlds/{world}/weather.json",
      .id = "get_weather",
-     .summary = "Rain, temperature, evaporation and the water in the soil on each day of a year.",
+     .summary = "The weather on each day of a year: rain, temperature, the evaporation from ground "
+                "that is "
+                "wet, and the water in the soil.",
      .media_type = json,
      .response_schema = "weather",
      .query_schema = [](const Atlas&) { return schema<YearParams>(); },
@@ -255,7 +257,7 @@ void add_schemas(Value& schemas, const Atlas&) {
     const Value sums = objects({{"rain_mm", number},
                                 {"rain_days", whole},
                                 {"temperature_c", number},
-                                {"evaporation_mm", number},
+                                {"potential_evaporation_mm", number},
                                 {"soil_water_mm", number}});
     schemas.set("world_params", as_written(schema<WorldParams>()))
         .set("world_list",
@@ -274,7 +276,7 @@ void add_schemas(Value& schemas, const Atlas&) {
                                  {"year", whole},
                                  {"days", objects({{"rain_mm", days},
                                                    {"temperature_c", days},
-                                                   {"evaporation_mm", days},
+                                                   {"potential_evaporation_mm", days},
                                                    {"soil_water_mm", days}})},
                                  {"months", list_of(sums)},
                                  {"whole_year", sums},

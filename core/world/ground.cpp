@@ -138,9 +138,11 @@ double stream_at(const Ground& ground, const Coordinate& x, const Coordinate& y)
 
 double wetness_on(const Ground& ground, double index, double soil_water) {
     constexpr double transmissivity_depth = 25.0, dry = 100.0;  // mm
+    // Where there is hardly any water, hollows have none to gather.
+    const double left = std::min(1.0, soil_water / 20.0);
     const double deficit =
         most_soil_water - soil_water + transmissivity_depth * (ground.mean_wetness - index);
-    return std::clamp(1.0 - deficit / dry, 0.0, 1.0);
+    return left * std::clamp(1.0 - deficit / dry, 0.0, 1.0);
 }
 
 }  // namespace sporeprint

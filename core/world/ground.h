@@ -81,7 +81,7 @@ struct Place {
 ///
 /// index       topographic wetness index of the place
 /// soil_water  mean of the world on that day, mm (WeatherDay)
-/// source      [BevenKirkby1979], with m = 25 mm
+/// source      [BevenKirkby1979], with m = 25 mm; differs: below 20 mm of soil water everything dries
 [[nodiscard]] double wetness_on(const Ground& ground, double index, double soil_water);
 
 }  // namespace sporeprint

@@ -82,7 +82,9 @@ const char* doc_of(WorldMap map) {
         case WorldMap::wetness:
             return "How wet the ground is on a day: 1 where water stands at its surface.";
         case WorldMap::streams:
-            return "1 where more than two hectares drain through a place.";
+            return "1 where more than two hectares drain through a node of the ground, 0 "
+                   "elsewhere; between "
+                   "nodes it is linear, so a stream is where it is above 0.5.";
     }
     return "";
 }

@@ -46,6 +46,7 @@ TEST_F(WorldMapsTest, AreListedByTheirWorldAndHaveAllTheirFiles) {
         EXPECT_EQ(map.find("map")->as_string(), name);
         EXPECT_EQ(map.find("width")->as_number(), 64);
         EXPECT_EQ(map.find("links")->find("r16") == nullptr, name == "terrarium");
+        EXPECT_EQ(map.find("formula")->as_string().starts_with("256 R"), name == "terrarium");
         for (const auto& [kind, file] : map.find("links")->members())
             EXPECT_EQ(ask(file.as_string()).status, 200) << file.as_string();
     }
@@ -61,8 +62,7 @@ TEST_F(WorldMapsTest, HaveTheHeightsOfTheGroundInMetres) {
     EXPECT_EQ(map.find("step_m")->items()[0].as_number(), 2);
     const auto numbers = numbers_of(text_of(response_to("height.r16" + query)));
     ASSERT_EQ(numbers.size(), 65U * 33U);
-    const WorldPreset* const meadow = built_in_atlas()->find_world("meadow");
-    WorldParams params = params_of(*meadow);
+    WorldParams params = params_of(*built_in_atlas()->find_world("meadow"));
     params.seed = 5;
     params.extent.value = 256;
     const Ground ground = ground_of(params);

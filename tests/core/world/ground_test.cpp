@@ -110,6 +110,7 @@ TEST(Ground, IsWetterWhereMoreWaterDrainsThrough) {
     EXPECT_DOUBLE_EQ(wetness_on(hills(), hills().mean_wetness, 60.0), 0.6);
     EXPECT_EQ(wetness_on(hills(), wet, most_soil_water), 1.0) << "water stands at the surface";
     EXPECT_EQ(wetness_on(hills(), hills().mean_wetness - 9.0, 0.0), 0.0);
+    EXPECT_EQ(wetness_on(hills(), hills().mean_wetness + 9.0, 0.0), 0.0) << "there is no water";
     // The mean index is that of the nodes within the world.
     double sum = 0.0;
     int count = 0;
