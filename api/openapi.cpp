@@ -13,8 +13,6 @@
 #include "api/http/schemas.h"
 #include "api/http/text.h"
 #include "api/products/mix.h"
-#include "api/products/world_maps.h"
-#include "api/products/worlds.h"
 #include "core/params/describe.h"
 #include "core/plant/wood.h"
 
@@ -52,16 +50,6 @@ void add_query_parameters(const Value& schema, const std::string& prefix, Value&
     }
 }
 
-Value path_parameter(std::string_view key, std::string_view doc, Value schema,
-                     std::string_view example) {
-    return object({{"name", key},
-                   {"in", "path"},
-                   {"required", true},
-                   {"description", doc},
-                   {"schema", std::move(schema)},
-                   {"example", example}});
-}
-
 Value query_parameter(std::string_view key, bool is_required, std::string_view doc, Value schema) {
     return object({{"name", key},
                    {"in", "query"},
@@ -70,7 +58,7 @@ Value query_parameter(std::string_view key, bool is_required, std::string_view d
                    {"schema", std::move(schema)}});
 }
 
-Value parameters_of(const Route& route, const DocumentInputs& inputs) {
+Value parameters_of(const RouteGroup& group, const Route& route, const DocumentInputs& inputs) {
     const Atlas& atlas = inputs.atlas;
     Value parameters = Value::array();
     const std::string_view pattern = route.pattern;
@@ -137,27 +125,8 @@ Value parameters_of(const Route& route, const DocumentInputs& inputs) {
                                        "base_color"));
     }
     if (route.query_schema) add_query_parameters(route.query_schema(atlas), "", parameters);
-    if (has("{world}"))
-        parameters.push(path_parameter(
-            "world",
-            "Id of a preset, then what differs from it as ,name=value by the names of "
-            "/v1/worlds/schema, last perhaps ,v= and a version token: today's makes the answer "
-            "immutable, any other is 410 with the canonical address of today's.",
-            object({{"type", "string"}, {"maxLength", longest_world}}),
-            atlas.worlds().front().id.string() + ",seed=7"));
-    if (has("{time}"))
-        parameters.push(path_parameter(
-            "time",
-            "A year from y0 to y200, with a day from d1 to d365 for "
-            "what changes from day to day.",
-            object({{"type", "string"}, {"pattern", "^y\\d{1,3}(d\\d{1,3})?$"}}), "y80d270"));
-    if (has("{map}"))
-        parameters.push(path_parameter(
-            "map", "Which map.",
-            object({{"type", "string"},
-                    {"enum", map_names(pattern.ends_with(".r16") ? MapFile::r16 : MapFile::png)}}),
-            "height"));
-    if (is_cached(route) && is_get(route) && !has("{world}"))
+    if (group.add_parameters) group.add_parameters(parameters, route, atlas);
+    if (is_cached(route) && is_get(route) && !route.has_version_in_path)
         parameters.push(query_parameter(
             "v", false,
             "Version token. Today's makes the answer immutable; any other is 410 with the "
@@ -378,7 +347,7 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
                         {"summary", route.summary},
                         {"description", description(route, is_head, is_signed)},
                         {"tags", Value(Value::Array{tag_of(group, route)})}});
-    Value parameters = parameters_of(route, inputs);
+    Value parameters = parameters_of(group, route, inputs);
     if (!parameters.items().empty()) out.set("parameters", std::move(parameters));
     if (*route.body_type) out.set("requestBody", request_body(route));
     Value security = security_of(route, inputs);

@@ -64,8 +64,9 @@ struct Route {
     Plan (*plan)(RouteCall&) = nullptr;                  ///< the handler of all other routes
     bool may_be_elsewhere = false;                       ///< 404 here if it has a separate port
     Access access = Access::open;
-    bool has_condition = false;  ///< If-Match is required
-    bool has_etag = false;       ///< of records: responses have an entity tag
+    bool has_condition = false;        ///< If-Match is required
+    bool has_etag = false;             ///< of records: responses have an entity tag
+    bool has_version_in_path = false;  ///< the version token is part of a {name}, not of the query
 };
 
 /// Returns true for products, images and uploads: their responses are generated on demand at a
@@ -86,6 +87,8 @@ struct RouteGroup {
     void (*add_links)(Value& links, const Atlas& atlas) = nullptr;      ///< to GET /v1
     void (*add_schemas)(Value& schemas, const Atlas& atlas) = nullptr;  ///< /components/schemas
     void (*add_bodies)(Value& bodies, const Atlas& atlas) = nullptr;    ///< requestBodies
+    /// Adds the OpenAPI parameters of {names} that no other product has.
+    void (*add_parameters)(Value& parameters, const Route& route, const Atlas& atlas) = nullptr;
 };
 
 /// The result of a lookup.

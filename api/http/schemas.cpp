@@ -145,6 +145,16 @@ std::string other_id(const Atlas& atlas) {
     return "boletus_edulis";
 }
 
+Value path_parameter(std::string_view name, std::string_view doc, Value schema,
+                     std::string_view example) {
+    return object({{"name", name},
+                   {"in", "path"},
+                   {"required", true},
+                   {"description", doc},
+                   {"schema", std::move(schema)},
+                   {"example", example}});
+}
+
 void take_from_preset(Value& leaf) {
     if (Value* properties = leaf.find("properties")) {
         for (auto& [key, property] : properties->members()) take_from_preset(property);

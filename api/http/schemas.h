@@ -70,6 +70,10 @@ namespace sporeprint::api {
 [[nodiscard]] std::string example_id(const Atlas& atlas);
 [[nodiscard]] std::string other_id(const Atlas& atlas);
 
+/// Returns the OpenAPI parameter of a {name} in a path.
+[[nodiscard]] Value path_parameter(std::string_view name, std::string_view doc, Value schema,
+                                   std::string_view example);
+
 /// Replaces the default of a schema, or of all leaf properties of an object schema, by the note
 /// "x-default-from":"preset".
 void take_from_preset(Value& leaf);

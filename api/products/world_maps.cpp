@@ -380,30 +380,27 @@ Slice slice_of_map(MapFile file, const Context& context, const MapRequest& reque
     return slice_of(dump(describe(context, request, ground, world)));
 }
 
-}  // namespace
-
-template <MapFile File>
-Plan plan_map(RouteCall& call) {
+Plan plan_file(RouteCall& call, MapFile file) {
     Context& context = call.context;
     const auto request = std::make_shared<const MapRequest>(read_map(call, call.errors));
-    if (File == MapFile::r16 && request->is_terrarium)
+    if (file == MapFile::r16 && request->is_terrarium)
         call.errors.add(404, "map",
                         "terrarium is in colours, which .r16 has not; height is "
                         "there as .r16");
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    Resource resource = world_resource(context, request->world, path_of(*request, ending_of(File)),
+    Resource resource = world_resource(context, request->world, path_of(*request, ending_of(file)),
                                        query_of(*request));
-    resource.type = type_of(File);
+    resource.type = type_of(file);
     resource.file_name = request->world.spec.preset + '_' + request->name() +
-                         (request->day == 0 ? "" : '_' + request->time()) + ending_of(File);
-    resource.estimate_cost = [cost = cost_of_map(*request, File)](const Caches&) { return cost; };
+                         (request->day == 0 ? "" : '_' + request->time()) + ending_of(file);
+    resource.estimate_cost = [cost = cost_of_map(*request, file)](const Caches&) { return cost; };
     // The range of heights alone depends on the ground.
-    const bool needs_ground = File != MapFile::json || request->map == WorldMap::height;
+    const bool needs_ground = file != MapFile::json || request->map == WorldMap::height;
     if (needs_ground)
         resource.prerequisite = [request](Store& store) {
             return ground_job(store, request->world.spec.params);
         };
-    resource.make = [&context, request, needs_ground,
+    resource.make = [&context, request, needs_ground, file,
                      world = world_text(request->world.spec, *context.atlas, resource.version)](
                         JobContext& job) {
         const ExecutionContext& execution = job.execution();
@@ -412,9 +409,16 @@ Plan plan_map(RouteCall& call) {
             needs_ground ? ground_of_world(request->world.spec.params, execution.caches)
                          : std::make_shared<const Ground>();
         execution.observer(Step::build);
-        return Body{slice_of_map(File, context, *request, *ground, world, execution)};
+        return Body{slice_of_map(file, context, *request, *ground, world, execution)};
     };
     return plan_resource(context, call.request, std::move(resource), call.errors);
+}
+
+}  // namespace
+
+template <MapFile File>
+Plan plan_map(RouteCall& call) {
+    return plan_file(call, File);
 }
 
 template Plan plan_map<MapFile::png>(RouteCall& call);
@@ -454,9 +458,10 @@ Value map_list(const ResponseBuilder& responses, const std::string& world) {
     const Value names = map_names(MapFile::json);
     for (const Value& one : names.items()) {
         const std::string& map = one.as_string();
-        const bool is_daily = map == name(WorldMap::wetness);
-        maps.set(map,
-                 responses.link(world + (is_daily ? "/y0d1" : "/y0") + "/maps/" + map + ".json"));
+        std::string address = world;
+        address += map == name(WorldMap::wetness) ? "/y0d1/maps/" : "/y0/maps/";
+        (address += map) += ".json";
+        maps.set(map, responses.link(address));
     }
     return maps;
 }

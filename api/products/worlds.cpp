@@ -207,7 +207,8 @@ constexpr Route routes[] = {
      .summary = "A world: its canonical text, its effective parameters, and what there is of it.",
      .media_type = json,
      .response_schema = "world_description",
-     .plan = plan_description},
+     .plan = plan_description,
+     .has_version_in_path = true},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/worlds/{world}/weather.json",
@@ -218,7 +219,8 @@ constexpr Route routes[] = {
      .media_type = json,
      .response_schema = "weather",
      .query_schema = [](const Atlas&) { return schema<YearParams>(); },
-     .plan = plan_weather},
+     .plan = plan_weather,
+     .has_version_in_path = true},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/worlds/{world}/{time}/maps/{map}.png",
@@ -227,7 +229,8 @@ constexpr Route routes[] = {
                 "Terrarium.",
      .media_type = "image/png",
      .query_schema = map_query_schema,
-     .plan = plan_map<MapFile::png>},
+     .plan = plan_map<MapFile::png>,
+     .has_version_in_path = true},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/worlds/{world}/{time}/maps/{map}.r16",
@@ -235,7 +238,8 @@ constexpr Route routes[] = {
      .summary = "The same numbers alone, rows from north to south, low byte first.",
      .media_type = "application/octet-stream",
      .query_schema = map_query_schema,
-     .plan = plan_map<MapFile::r16>},
+     .plan = plan_map<MapFile::r16>,
+     .has_version_in_path = true},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/worlds/{world}/{time}/maps/{map}.json",
@@ -244,11 +248,39 @@ constexpr Route routes[] = {
      .media_type = json,
      .response_schema = "world_map",
      .query_schema = map_query_schema,
-     .plan = plan_map<MapFile::json>},
+     .plan = plan_map<MapFile::json>,
+     .has_version_in_path = true},
 };
 
 void add_links(Value& links, const Atlas&) {
     links.set("worlds", "/v1/worlds").set("world_schema", "/v1/worlds/schema");
+}
+
+void add_parameters(Value& parameters, const Route& route, const Atlas& atlas) {
+    const std::string_view pattern = route.pattern;
+    const auto has = [&](const char* capture) {
+        return pattern.find(capture) != std::string_view::npos;
+    };
+    if (has("{world}"))
+        parameters.push(path_parameter(
+            "world",
+            "Id of a preset, then what differs from it as ,name=value by the names of "
+            "/v1/worlds/schema, last perhaps ,v= and a version token: today's makes the answer "
+            "immutable, any other is 410 with the canonical address of today's.",
+            object({{"type", "string"}, {"maxLength", longest_world}}),
+            atlas.worlds().front().id.string() + ",seed=7"));
+    if (has("{time}"))
+        parameters.push(path_parameter(
+            "time",
+            "A year from y0 to y200, with a day from d1 to d365 for "
+            "what changes from day to day.",
+            object({{"type", "string"}, {"pattern", "^y\\d{1,3}(d\\d{1,3})?$"}}), "y80d270"));
+    if (has("{map}"))
+        parameters.push(path_parameter(
+            "map", "Which map.",
+            object({{"type", "string"},
+                    {"enum", map_names(pattern.ends_with(".r16") ? MapFile::r16 : MapFile::png)}}),
+            "height"));
 }
 
 void add_schemas(Value& schemas, const Atlas&) {
@@ -347,6 +379,7 @@ const RouteGroup world_routes = {
     .routes = routes,
     .add_links = add_links,
     .add_schemas = add_schemas,
+    .add_parameters = add_parameters,
 };
 
 }  // namespace sporeprint::api
