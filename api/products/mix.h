@@ -3,27 +3,16 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "api/http/errors.h"
 #include "core/atlas/atlas.h"
 #include "core/grow/names.h"
-#include "core/individual/mushroom_spec.h"
+#include "core/params/mix.h"
 
 namespace sporeprint::api {
 
 /// Largest number of species in one mix.
 inline constexpr std::size_t most_species = 8;
-
-/// Species ids with weights as the client wrote them.
-using Weights = std::vector<std::pair<std::string, double>>;
-
-/// Returns the canonical form: weights in thousandths by largest remainder (ties by id, sum 1000),
-/// without those that round to 0, sorted by id. Idempotent.
-///
-/// weights  positive and finite, ids distinct, not empty
-[[nodiscard]] Mix canonical_mix(Weights weights);
 
 /// Finds a species by its id, or nullptr if the atlas has none.
 ///

@@ -3,6 +3,7 @@
 
 #include "core/model/model.h"
 #include "core/model/substrate.h"
+#include "core/params/mix.h"
 #include "core/params/profile.h"
 #include "core/params/shared_params.h"
 #include "core/silhouette/morph_set.h"
@@ -186,15 +187,6 @@ struct MushroomParams {
     }
     bool operator==(const MushroomParams&) const = default;
 };
-
-/// One species of a mix; weights are thousandths and sum to 1000.
-struct MixPart {
-    std::string id;
-    int weight = 1000;
-    bool operator==(const MixPart&) const = default;
-};
-
-using Mix = std::vector<MixPart>;
 
 /// A whole request: a mix of the atlas or a custom model, and the parameters.
 struct MushroomSpec {

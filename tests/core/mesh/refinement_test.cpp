@@ -8,6 +8,7 @@
 #include "core/math/elementary.h"
 #include "core/mesh/measure.h"
 #include "tests/support/meshes.h"
+#include "tests/support/solids.h"
 
 namespace sporeprint::mesh_refinement_test {
 namespace {
