@@ -82,15 +82,28 @@ enum Purpose : std::uint32_t {
     bracket_base = 140,    ///< how unevenly a bracket meets its wood
     ground = 141,          ///< soil, litter and strands at a foot
     ground_paint = 144,
-    species_damage = 145,  ///< seed of the damage of one species of an individual
-    tree_tints = 146,      ///< hue and brightness of each branch of a tree, and of each leaf
-    leaf_damage = 147,     ///< where insects have eaten a leaf
-    fallen_litter = 148,   ///< litter on a cap
-    ground_crumbs = 149,   ///< grains of soil on a clod and beside it
-    crossing = 150,        ///< what an offspring has of which parent
-    mutation = 151,        ///< how its genes differ from those of its parents
-    terrain = 200,         ///< place, seed and direction of each octave of a world's heights
-    weather = 201,         ///< of a world: rain and warmth, day by day
+    species_damage = 145,   ///< seed of the damage of one species of an individual
+    tree_tints = 146,       ///< hue and brightness of each branch of a tree, and of each leaf
+    leaf_damage = 147,      ///< where insects have eaten a leaf
+    fallen_litter = 148,    ///< litter on a cap
+    ground_crumbs = 149,    ///< grains of soil on a clod and beside it
+    crossing = 150,         ///< what an offspring has of which parent
+    mutation = 151,         ///< how its genes differ from those of its parents
+    terrain = 200,          ///< place, seed and direction of each octave of a world's heights
+    weather = 201,          ///< of a world: rain and warmth, day by day
+    patches = 202,          ///< of a wood: seeds of patches and their storms
+    seedlings = 203,        ///< candidates for trees, cell by cell
+    dead_wood = 204,        ///< how a dead tree falls
+    founders = 220,         ///< where and when a species arrives in a world
+    mycelium_births = 230,  ///< mycelia in a cell and an epoch, on a host or on a dead trunk
+    mycelium_arcs = 231,    ///< the arcs of a ring of fruit bodies, and its radius round a tree
+    flushes = 232,          ///< how much good weather a mycelium needs before it fruits
+    fruit_places = 233,     ///< numbers and places of the fruit bodies of a flush
+    brackets = 234,         ///< places and years of perennial fruit bodies
+    floor_pieces = 240,     ///< what is painted on the floor of a world, such as leaves and twigs
+    floor_noise = 241,      ///< seeds of the noises of that floor and of its relief
+    plot_pieces = 242,      ///< leaves and blades that lie or stand on a plot as meshes
+    trunk_ends = 243,       ///< broken ends of dead trunks
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -182,6 +195,19 @@ enum Purpose : std::uint32_t {
         case mutation:
         case terrain:
         case weather:
+        case patches:
+        case seedlings:
+        case dead_wood:
+        case founders:
+        case mycelium_births:
+        case mycelium_arcs:
+        case flushes:
+        case fruit_places:
+        case brackets:
+        case floor_pieces:
+        case floor_noise:
+        case plot_pieces:
+        case trunk_ends:
             return 1;
     }
     return 0;

@@ -23,7 +23,9 @@ std::uint32_t stream_of(std::string_view name) { return XXH32(name.data(), name.
 
 std::uint32_t Random::bits() {
     if (used_ == 4) {
-        words_ = philox({object_, block_, 0, 0}, {seed_, purpose_});
+        words_ = philox({object_, block_, static_cast<std::uint32_t>(cell_.x),
+                         static_cast<std::uint32_t>(cell_.y)},
+                        {seed_, purpose_});
         ++block_;
         used_ = 0;
     }

@@ -19,6 +19,12 @@ namespace sporeprint {
 /// source  XXH32 of its bytes
 [[nodiscard]] std::uint32_t stream_of(std::string_view name);
 
+/// A square of a plane that is divided into squares of one size.
+struct CellIndex {
+    std::int32_t x = 0, y = 0;
+    auto operator<=>(const CellIndex&) const = default;
+};
+
 /// A stream of draws for one purpose and object, so that a new draw in one place changes nothing
 /// elsewhere. Assign every draw to a variable before use: the order of evaluation of arguments
 /// differs between compilers.
@@ -26,6 +32,9 @@ class Random {
   public:
     Random(std::uint32_t seed, std::uint32_t purpose, std::uint32_t object = 0)
         : seed_(seed), purpose_(purpose), object_(object) {}
+    /// A stream for an object of a cell of the plane of a world.
+    Random(std::uint32_t seed, std::uint32_t purpose, std::uint32_t object, CellIndex cell)
+        : seed_(seed), purpose_(purpose), object_(object), cell_(cell) {}
 
     [[nodiscard]] std::uint32_t bits();
     [[nodiscard]] double uniform();                        ///< 0 <= x < 1, 24 bits
@@ -36,6 +45,7 @@ class Random {
 
   private:
     std::uint32_t seed_, purpose_, object_;
+    CellIndex cell_;
     std::uint32_t block_ = 0;
     int used_ = 4;
     std::array<std::uint32_t, 4> words_{};

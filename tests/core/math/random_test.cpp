@@ -42,6 +42,15 @@ TEST(Random, StreamsDifferBySeedPurposeAndObject) {
     EXPECT_EQ(firsts.size(), 512u);
 }
 
+TEST(Random, CellsHaveStreamsOfTheirOwn) {
+    Random whole(1, 2, 3), middle(1, 2, 3, {0, 0});
+    EXPECT_EQ(whole.bits(), middle.bits());
+    std::set<std::uint32_t> seen;
+    for (std::int32_t y = -2; y <= 2; ++y)
+        for (std::int32_t x = -2; x <= 2; ++x) seen.insert(Random(1, 2, 3, {x, y}).bits());
+    EXPECT_EQ(seen.size(), 25U);
+}
+
 TEST(Random, UniformDrawsAreUniform) {
     Random random(1, 2);
     std::array<int, 64> buckets{};
