@@ -12,7 +12,8 @@
 namespace sporeprint::api {
 
 /// The format of the text that this program writes. It reads this and all earlier ones.
-inline constexpr int species_format = 1;
+/// Since 2 species have an ecology.
+inline constexpr int species_format = 2;
 
 /// Returns a species as it is stored: JSON in the order of the schema, images replaced by
 /// {"sha256":"<hex>"} and stored as blobs whose places are JSON pointers.

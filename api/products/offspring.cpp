@@ -218,7 +218,7 @@ std::string breeding_key(const OffspringSpec& spec, const std::string& version) 
 std::shared_ptr<const Atlas> bred(const Context& context, const OffspringSpec& spec,
                                   const Caches& caches) {
     const Atlas& atlas = *context.atlas;
-    return caches.offspring(breeding_key(spec, OffspringOfTwo::version(spec, atlas)), [&] {
+    return caches.offspring(breeding_key(spec, OffspringOfTwo::document_version(spec, atlas)), [&] {
         const Offspring child = offspring(*species_of(spec.a, atlas), *species_of(spec.b, atlas),
                                           spec.breeding, caches.morphs);
         return std::make_shared<const Atlas>(AtlasTexts{.species = {dump(write(child.species))}});
@@ -298,6 +298,14 @@ std::string OffspringOfTwo::version(const OffspringSpec& spec, const Atlas& atla
         if (!parent->own && (weights.empty() || weights.front().first != parent->id))
             weights.emplace_back(parent->id, 1.0);
     return version_token(weights.empty() ? Mix{} : canonical_mix(std::move(weights)), atlas);
+}
+
+std::string OffspringOfTwo::document_version(const OffspringSpec& spec, const Atlas& atlas) {
+    std::string templates = version(spec, atlas);
+    for (const Parent* parent : {&spec.a, &spec.b})
+        if (const AtlasEntry* entry = parent->own ? nullptr : atlas.find(parent->id))
+            templates += '\n' + parent->id + ' ' + std::to_string(entry->ecology_hash);
+    return token_of(templates);
 }
 
 std::string OffspringOfTwo::url(const OffspringSpec& spec, Product product, const Atlas&) {

@@ -52,6 +52,7 @@ struct OffspringOfTwo {
     };
 
     static std::string version(const OffspringSpec& spec, const Atlas& atlas);
+    static std::string document_version(const OffspringSpec& spec, const Atlas& atlas);
     static std::string url(const OffspringSpec& spec, Product product, const Atlas& atlas);
     static std::string key(const OffspringSpec& spec, Product product, const std::string& version);
     static std::string file_name(const OffspringSpec& spec, Product product, const Atlas& atlas);

@@ -19,6 +19,7 @@ namespace sporeprint::api {
 /// static functions of a specification (`Spec`), and a type Resolved, empty at first, in which
 /// cost() may leave what it has resolved for grow() and describe():
 ///   version(spec, atlas)                   current version token
+///   document_version(spec, atlas)          optional: that of the JSON, if it depends on more
 ///   url(spec, product, atlas)              canonical URL without version; "" if it has none
 ///   key(spec, product, version)            canonical text of all values
 ///   file_name(spec, product, atlas)
@@ -45,6 +46,9 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     const auto resolved = std::make_shared<typename Kind::Resolved>();
     Resource resource;
     resource.version = Kind::version(*spec, *context.atlas);
+    if constexpr (requires { Kind::document_version(*spec, *context.atlas); })
+        if (product == Product::json)
+            resource.version = Kind::document_version(*spec, *context.atlas);
     const std::string url = Kind::url(*spec, product, *context.atlas);
     if (!url.empty()) resource.address = with_version(url, resource.version);
     resource.key = Kind::key(*spec, product, resource.version);

@@ -61,7 +61,10 @@ const typename Kind::Preset& preset_of(const Atlas& atlas, std::string_view id,
 /// pre  a preset has this id
 template <class Kind>
 typename Kind::Params own_params(const Atlas& atlas, std::string_view id) {
-    return params_of(*Kind::find(atlas, id));
+    if constexpr (requires { params_of(*Kind::find(atlas, id), atlas); })
+        return params_of(*Kind::find(atlas, id), atlas);
+    else
+        return params_of(*Kind::find(atlas, id));
 }
 
 /// Replaces a number of triangles by the level of detail that it chooses, so that equal files have

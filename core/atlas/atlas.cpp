@@ -30,6 +30,8 @@ bool read_template(const std::string& text, T& out, std::vector<Problem>& proble
     return found.empty();
 }
 
+std::uint64_t hash_of(const std::string& text) { return XXH3_64bits(text.data(), text.size()); }
+
 void report_repeated(const std::string& id, std::vector<Problem>& problems) {
     report(problems, id + ":/id", "two templates have this id");
 }
@@ -69,6 +71,23 @@ void check_leaf(const TreePreset& tree, std::vector<Problem>& problems) {
     report(problems, path,
            not_allowed_message(in_quotes(tree.leaf.id), tree.leaf) +
                (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+}
+
+/// Reports kinds of trees and species of a world that are not among those of the atlas.
+void check_contents(const WorldPreset& world, const Atlas& atlas, std::vector<Problem>& problems) {
+    const std::string path = world.id.string() + ":/stand";
+    std::vector<Problem> reported;  // of the text itself, when it was read
+    // A world that names no kinds has the default, which an atlas of other trees need not have.
+    const bool names_kinds = world.stand.kinds != StandParams{}.kinds;
+    for (const auto& [id, weight] : kinds_in(world.stand.kinds, path, reported))
+        if (names_kinds && !atlas.find_tree(id))
+            report(problems, path + "/kinds", "there is no tree " + in_quotes(id));
+    if (!world.stand.lone.empty() && !atlas.find_tree(world.stand.lone))
+        report(problems, path + "/lone", "there is no tree " + in_quotes(world.stand.lone));
+    for (const std::string& id : species_in(world.fungi.species, path, reported))
+        if (!atlas.find(id))
+            report(problems, world.id.string() + ":/fungi/species",
+                   "there is no species " + in_quotes(id));
 }
 
 /// Returns the names of the *.json files in a folder, sorted.
@@ -116,9 +135,12 @@ std::vector<std::string> texts_in_subfolder(const std::filesystem::path& folder)
 }  // namespace
 
 AtlasEntry atlas_entry(Species species) {
-    std::string json = dump(write(species));
-    const std::uint64_t hash = XXH3_64bits(json.data(), json.size());
-    return {std::move(species), std::move(json), hash};
+    Value value = write(species);
+    std::string json = dump(value);
+    value.erase("ecology");
+    const std::uint64_t hash = hash_of(dump(value)),
+                        ecology_hash = hash_of(dump(write(species.ecology)));
+    return {std::move(species), std::move(json), hash, ecology_hash};
 }
 
 Atlas::Atlas(std::shared_ptr<const Atlas> host, std::vector<AtlasGuest> guests)
@@ -173,6 +195,22 @@ const WorldPreset* Atlas::find_world(std::string_view id) const {
     return host_ ? host_->find_world(id) : preset_in(worlds_, id);
 }
 
+WorldParams params_of(const WorldPreset& preset, const Atlas& atlas) {
+    WorldParams params = params_of(preset);
+    std::vector<Problem> ignored;
+    std::string kinds, species;
+    for (const auto& [id, weight] : kinds_in(params.stand.kinds, "", ignored))
+        if (atlas.find_tree(id))
+            kinds += (kinds.empty() ? "" : "+") + id + ':' + number_text(weight);
+    if (kinds.empty()) kinds = atlas.trees().front().id.string();
+    params.stand.kinds = Text<256>(canonical_kinds(kinds));
+    if (!params.stand.lone.empty() && !atlas.find_tree(params.stand.lone)) params.stand.lone = {};
+    for (const std::string& id : species_in(params.fungi.species, "", ignored))
+        if (atlas.find(id)) species += (species.empty() ? "" : "+") + id;
+    params.fungi.species = Text<620>(species);
+    return params;
+}
+
 std::shared_ptr<const Atlas> built_in_atlas() {
     return std::make_shared<const Atlas>(built_in_texts());
 }
@@ -187,12 +225,19 @@ std::shared_ptr<const Atlas> atlas_from(const std::filesystem::path& folder) {
     if (texts.species.empty() && texts.leaves.empty() && texts.trees.empty() &&
         texts.worlds.empty())
         throw InvalidInput(folder.string(), "the folder holds no *.json template");
+    const bool has_worlds = !texts.worlds.empty();
     const AtlasTexts& built_in = built_in_texts();
     if (texts.species.empty()) texts.species = built_in.species;
     if (texts.leaves.empty()) texts.leaves = built_in.leaves;
     if (texts.trees.empty()) texts.trees = built_in.trees;
     if (texts.worlds.empty()) texts.worlds = built_in.worlds;
-    return std::make_shared<const Atlas>(texts);
+    auto atlas = std::make_shared<const Atlas>(texts);
+    // Built-in worlds have what is left of their trees and species; worlds of one's own are meant as they are.
+    std::vector<Problem> problems;
+    if (has_worlds)
+        for (const WorldPreset& world : atlas->worlds()) check_contents(world, *atlas, problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    return atlas;
 }
 
 }  // namespace sporeprint

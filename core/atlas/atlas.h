@@ -20,8 +20,11 @@ namespace sporeprint {
 /// One species with its canonical text.
 struct AtlasEntry {
     Species species;
-    std::string json;        ///< the template as served: canonical JSON
-    std::uint64_t hash = 0;  ///< XXH3 of `json`, 64 bits
+    std::string json;  ///< the template as served: canonical JSON
+    /// XXH3 of `json` without the ecology, 64 bits: no mesh or image depends on that, so addresses of
+    /// mushrooms stay valid when it changes.
+    std::uint64_t hash = 0;
+    std::uint64_t ecology_hash = 0;  ///< XXH3 of the canonical JSON of the ecology, 64 bits
 };
 
 /// Returns the entry of a species.
@@ -114,6 +117,12 @@ class Atlas {
     std::string leaf_text_;
 };
 
+/// Returns the parameters of a world's preset without overrides. Trees and species that the atlas does not have are
+/// left out; a wood without any of its trees has the first one of the atlas.
+///
+/// pre  the atlas has a tree
+[[nodiscard]] WorldParams params_of(const WorldPreset& preset, const Atlas& atlas);
+
 /// Returns the texts that are compiled in.
 [[nodiscard]] const AtlasTexts& built_in_texts();
 
@@ -126,7 +135,8 @@ class Atlas {
 /// built-in ones of this kind.
 ///
 /// throws  InvalidInput if the folder cannot be read or has no such file, with the problems of the
-///         first invalid file, paths prefixed by its name, or as the constructor does
+///         first invalid file, paths prefixed by its name, for worlds of the folder with trees or
+///         species that the atlas does not have, or as the constructor does
 [[nodiscard]] std::shared_ptr<const Atlas> atlas_from(const std::filesystem::path& folder);
 
 }  // namespace sporeprint

@@ -39,6 +39,8 @@ std::vector<std::string> lockable_parts(const Species& species) {
     name_parts(species.spread, "spread", names);
     names.emplace_back("ground");
     name_parts(species.ground, "ground", names);
+    // A part of one ecology may be impossible in another: rings of 20 m in a wood.
+    names.emplace_back("ecology");
     name_parts(species.stages.front().model, "", names);
     return names;
 }

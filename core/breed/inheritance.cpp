@@ -20,7 +20,9 @@ template <class T>
 void scale(T& value, const Info& info, double factor) {
     const auto number = [&](double x) { return std::clamp(x * factor, info.min, info.max); };
     if constexpr (Described<T>) {
-        T::fields([&](auto member, const Info& sub) { scale(value.*member, sub, factor); });
+        // Mycelia and the distances between fruit bodies do not grow with the size of the bodies.
+        if constexpr (!std::is_same_v<T, Ecology>)
+            T::fields([&](auto member, const Info& sub) { scale(value.*member, sub, factor); });
     } else if constexpr (is_variant<T>) {
         std::visit([&](auto& one) { scale(one, info, factor); }, value);
     } else if constexpr (is_optional<T>) {
@@ -41,7 +43,7 @@ std::string drawn_with(const std::string& trait) {
     if (trait.starts_with(amounts)) return drawn_with(trait.substr(amounts.size()));
     if (trait == "surface.hymenium") return "hymenium";
     if (trait == "sac") return "volva";
-    if (trait == "ground") return "azimuth";
+    if (trait == "ground" || trait == "ecology") return "azimuth";
     return trait;
 }
 
@@ -57,6 +59,7 @@ class Inheritance {
             any, any, any, "",
             [&](auto&, const auto&, const auto&, const std::string& trait) { lock(trait); });
         lock("ground");
+        lock("ecology");
     }
 
     [[nodiscard]] bool is_of_second(const std::string& trait) const {
@@ -145,6 +148,7 @@ Species crossed(const Species& a, const Species& b, const Genes& genes) {
     Species out = is_of_second ? b : a;
     inheritance.inherit(out.spread, a.spread, b.spread, "spread");
     inheritance.inherit(out.ground, a.ground, b.ground, "ground");
+    inheritance.inherit(out.ecology, a.ecology, b.ecology, "ecology");
     for (Stage& stage : out.stages) {
         const Model first = model_at(a, stage.age), second = model_at(b, stage.age);
         visit_traits(

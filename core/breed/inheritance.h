@@ -19,7 +19,7 @@ namespace sporeprint {
 /// Returns a species with the stages of one parent and the traits of both. Each trait comes whole from
 /// one of them; deformation, weathering, spread and segments are blended. Traits that fit together alone
 /// are drawn together: gills and how they are painted, an ornament and its amount, what stands on
-/// the ground and its soil. Locked parts are those of the first. Outlines and axes are those of the
+/// the ground, its soil and the ecology. Locked parts are those of the first. Outlines and axes are those of the
 /// parent whose stages it has.
 ///
 /// pre  both are of one family

@@ -199,7 +199,10 @@ void describe(Offspring& out, const Species& a, const Species& b, const Breeding
         if (sources.size() < most) sources.push_back(source);
     facts.sources = std::move(sources);
     out.species.id = {};
-    const std::string text = dump(write(out.species));
+    // Individuals draw by the id, so it must not depend on the ecology, which has no part in their shapes.
+    Value shape = write(out.species);
+    shape.erase("ecology");
+    const std::string text = dump(shape);
     std::uint64_t hash = XXH3_64bits(text.data(), text.size());
     std::string id = "offspring_";
     for (int digit = 0; digit < 16; ++digit, hash <<= 4U) id += "0123456789abcdef"[hash >> 60U];

@@ -1,7 +1,8 @@
-// A species: facts, growth stages and the spread of individuals. Each is one JSON file in
-// core/atlas/species.
+// A species: facts, growth stages, the spread of individuals, and the ecology. Each is one JSON file
+// in core/atlas/species.
 #pragma once
 
+#include "core/model/ecology.h"
 #include "core/model/ground.h"
 #include "core/model/model.h"
 
@@ -215,6 +216,7 @@ struct Species {
     Facts facts;
     Spread spread;
     GroundStyle ground;
+    Ecology ecology;
     std::vector<Stage> stages;
 
     static constexpr void fields(auto visit) {
@@ -225,6 +227,10 @@ struct Species {
         visit(&Species::spread, Info{.name = "spread", .doc = "How far individuals vary."});
         visit(&Species::ground,
               Info{.name = "ground", .doc = "Soil, litter and mycelium at the foot."});
+        visit(&Species::ecology,
+              Info{.name = "ecology",
+                   .doc = "Where it lives in a world, how its mycelia spread and when it fruits; "
+                          "the shape of a mushroom does not depend on it."});
         visit(&Species::stages, Info{.name = "stages",
                                      .most = 8,
                                      .doc = "Growth stages by age; every stage has as many control "

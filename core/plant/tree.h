@@ -11,6 +11,7 @@
 #include "core/mesh/mesh.h"
 #include "core/plant/bark_image.h"
 #include "core/plant/leaf.h"
+#include "core/plant/tree_ecology.h"
 #include "core/ramification/ramification.h"
 #include "core/ramification/topology.h"
 #include "core/skeleton/skeleton.h"
@@ -332,6 +333,7 @@ struct TreePreset {
     TreeShape shape;
     LeafStyle leaves;
     BarkStyle bark;
+    TreeEcology ecology;
 
     static constexpr void fields(auto visit) {
         using P = TreePreset;
@@ -342,6 +344,10 @@ struct TreePreset {
         visit(&P::shape, Info{.name = "shape", .doc = "Trunk and branches."});
         visit(&P::leaves, Info{.name = "leaves", .doc = "How leaves stand on their twigs."});
         visit(&P::bark, Info{.name = "bark", .doc = "What is painted on trunk and branches."});
+        visit(&P::ecology,
+              Info{.name = "ecology",
+                   .doc = "Where it grows in a world, how old and tall it becomes and how its wood "
+                          "decays; the shape of a tree does not depend on it."});
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
         if (const std::string message = invalid_id_message(id); !message.empty())

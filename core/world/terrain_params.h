@@ -11,6 +11,7 @@ struct TerrainParams {
     double feature = 400.0;
     double roughness = 0.47;
     double erosion = 0.5;
+    double micro = 0.06;
 
     static constexpr void fields(auto visit) {
         using T = TerrainParams;
@@ -39,6 +40,13 @@ struct TerrainParams {
                                 .max = 1,
                                 .doc = "How long running water has cut valleys into the hills.",
                                 .step = 0.02});
+        visit(&T::micro, Info{.name = "micro",
+                              .unit = "m",
+                              .min = 0,
+                              .max = 0.3,
+                              .doc = "Height of the smallest bumps, of 4 m and less, which plots "
+                                     "show and maps do not.",
+                              .step = 0.01});
     }
     bool operator==(const TerrainParams&) const = default;
 };

@@ -7,6 +7,9 @@
 
 #include "core/params/describe.h"
 #include "core/plant/leaf.h"
+#include "core/world/fungi_params.h"
+#include "core/world/soil_params.h"
+#include "core/world/stand_params.h"
 #include "core/world/terrain_params.h"
 
 namespace sporeprint {
@@ -18,6 +21,9 @@ struct ClimateParams {
     double swing = 9.5;
     double rain = 800.0;
     double rain_days = 0.42;
+    double wind_from_deg = 250.0;
+    double wind_speed = 3.0;
+    double wind_focus = 1.2;
 
     static constexpr void fields(auto visit) {
         using C = ClimateParams;
@@ -54,6 +60,26 @@ struct ClimateParams {
                                   .doc = "Share of the days on which it rains: the fewer they are, "
                                          "the heavier is their rain.",
                                   .step = 0.01});
+        visit(&C::wind_from_deg,
+              Info{.name = "wind_from_deg",
+                   .unit = "deg",
+                   .min = 0,
+                   .max = 360,
+                   .doc = "Where most of the wind comes from, clockwise from north.",
+                   .step = 5});
+        visit(&C::wind_speed, Info{.name = "wind_speed",
+                                   .unit = "m/s",
+                                   .min = 0,
+                                   .max = 10,
+                                   .doc = "Mean speed of the wind 10 m above open ground.",
+                                   .step = 0.1});
+        visit(&C::wind_focus,
+              Info{.name = "wind_focus",
+                   .min = 0,
+                   .max = 5,
+                   .doc = "How much of the wind comes from there: at 0 all directions are alike; "
+                          "if nearly all comes from within 45 degrees of it.",
+                   .step = 0.1});
     }
     bool operator==(const ClimateParams&) const = default;
 };
@@ -65,6 +91,9 @@ struct WorldParams {
     Choice<256, 1024, 4096> extent{1024};
     TerrainParams terrain;
     ClimateParams climate;
+    StandParams stand;
+    SoilParams soil;
+    FungiParams fungi;
 
     static constexpr void fields(auto visit) {
         using W = WorldParams;
@@ -79,6 +108,9 @@ struct WorldParams {
                                       "north, east, south and west of its centre."});
         visit(&W::terrain, Info{.name = "terrain", .doc = "The shape of the ground."});
         visit(&W::climate, Info{.name = "climate", .doc = "What the weather is drawn from."});
+        visit(&W::stand, Info{.name = "stand", .doc = "Its trees, living and dead."});
+        visit(&W::soil, Info{.name = "soil", .doc = "What the soil is like."});
+        visit(&W::fungi, Info{.name = "fungi", .doc = "Its fungi."});
     }
     bool operator==(const WorldParams&) const = default;
 };
@@ -91,6 +123,9 @@ struct WorldPreset {
     int rank = 1000;
     TerrainParams terrain;
     ClimateParams climate;
+    StandParams stand;
+    SoilParams soil;
+    FungiParams fungi;
 
     static constexpr void fields(auto visit) {
         using P = WorldPreset;
@@ -99,6 +134,9 @@ struct WorldPreset {
         visit(&P::rank, info_of<LeafPreset>("rank"));
         visit(&P::terrain, info_of<WorldParams>("terrain"));
         visit(&P::climate, info_of<WorldParams>("climate"));
+        visit(&P::stand, info_of<WorldParams>("stand"));
+        visit(&P::soil, info_of<WorldParams>("soil"));
+        visit(&P::fungi, info_of<WorldParams>("fungi"));
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
         if (const std::string message = invalid_id_message(id); !message.empty())
@@ -120,6 +158,11 @@ struct WorldSpec {
     WorldParams params;
     params.terrain = preset.terrain;
     params.climate = preset.climate;
+    params.stand = preset.stand;
+    params.stand.kinds = Text<256>(canonical_kinds(preset.stand.kinds));
+    params.soil = preset.soil;
+    params.fungi = preset.fungi;
+    params.fungi.species = Text<620>(canonical_species(preset.fungi.species));
     return params;
 }
 

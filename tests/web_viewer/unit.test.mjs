@@ -1703,12 +1703,12 @@ test("parts that can be locked come from the schema, those of the surface one by
         ],
         properties: { ring: part("ring"), surface: { title: "surface", properties: { cap: part("cap"), stem: part("stem") } } },
     };
-    const schema = { properties: { spread: part("spread"), stages: { items: { properties: { model } } } } };
+    const schema = { properties: { spread: part("spread"), ecology: part("ecology"), stages: { items: { properties: { model } } } } };
     const names = (family) => page.locksOf(schema, family).map(({ label, locks }) => [label, locks.map(({ name }) => name)]);
     assert.deepEqual(names("swept"), [
         ["Shape", ["silhouette", "ring"]],
         ["Surface", ["surface.cap", "surface.stem"]],
-        ["Whole", ["size", "stages", "spread"]],
+        ["Whole", ["size", "stages", "spread", "ecology"]],
     ]);
     assert.deepEqual(names("branched")[0], ["Shape", ["limbs", "ring"]]);
 });

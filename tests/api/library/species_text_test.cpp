@@ -52,6 +52,22 @@ TEST(SpeciesText, ImagesAreStoredBesideTheText) {
     EXPECT_EQ(json_of(content), write(species));
 }
 
+TEST(SpeciesText, OfTheFirstFormatHasTheDefaultEcology) {
+    const std::shared_ptr<const Atlas> atlas = built_in_atlas();
+    const Species& species = atlas->find("boletus_edulis")->species;
+    Content old = content_of(species);
+    std::vector<Problem> problems;
+    Value json = parse(old.text, problems);
+    json.erase("ecology");
+    old.text = dump(json);
+    old.format = 1;
+    Species expected = species;
+    expected.ecology = {};
+    EXPECT_EQ(species_of(old), expected);
+    // Mushrooms of what was published before have the addresses that they had.
+    EXPECT_EQ(atlas_entry(species_of(old)).hash, atlas_entry(species).hash);
+}
+
 TEST(SpeciesText, WhatCannotBeReadIsAnErrorOfTheDatabase) {
     Content content = content_of(built_in_atlas()->find("boletus_edulis")->species);
     content.format = species_format + 1;

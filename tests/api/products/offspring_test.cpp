@@ -40,6 +40,30 @@ TEST_F(OffspringTest, IsAWholeSpeciesThatTheAtlasReads) {
               "surface.cap");
 }
 
+TEST_F(OffspringTest, HasAJsonOfAnotherVersionThanItsMushroomWhereEcologiesChange) {
+    const AtlasTexts& texts = built_in_texts();
+    AtlasTexts changed = texts;
+    const std::string mark = "\"guild\": \"ectomycorrhizal\"";
+    for (std::string& text : changed.species)
+        if (const std::size_t at = text.find(mark); at != std::string::npos)
+            text.replace(at, mark.size(), "\"guild\": \"litter\"");
+    const Atlas before(texts), after(changed);
+    OffspringSpec spec;
+    spec.a.id = "amanita_muscaria";
+    spec.b.id = "boletus_edulis";
+    EXPECT_EQ(OffspringOfTwo::version(spec, before), OffspringOfTwo::version(spec, after));
+    EXPECT_NE(OffspringOfTwo::document_version(spec, before),
+              OffspringOfTwo::document_version(spec, after));
+    const std::string token = OffspringOfTwo::document_version(spec, before);
+    const Response current = ask(pair + ".json?v=" + token);
+    EXPECT_EQ(current.status, 200) << text_of(current);
+    EXPECT_NE(header(current, "Cache-Control").find("immutable"), std::string::npos);
+    EXPECT_EQ(ask(pair + ".json?v=" + OffspringOfTwo::version(spec, before)).status, 410)
+        << "the text before there were ecologies";
+    EXPECT_EQ(ask(pair + ".glb?" + small + "&v=" + OffspringOfTwo::version(spec, before)).status,
+              200);
+}
+
 TEST_F(OffspringTest, GrowsTheMushroomOfThatSpecies) {
     const Response response = ask(pair + ".glb?seed=7&age=0.5&individual=3&" + small);
     ASSERT_EQ(response.status, 200) << text_of(response);

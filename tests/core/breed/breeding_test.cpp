@@ -80,8 +80,10 @@ TEST(LockableParts, AreThoseOfTheFamily) {
     for (const char* part : {"stages", "size", "spread.size", "ground.soil", "silhouette", "axis",
                              "azimuth.lobes", "surface.cap.ramp", "ornaments.ring"})
         EXPECT_TRUE(has(swept, part)) << part;
-    // An outline is inherited as a whole.
+    // An outline and an ecology are inherited as wholes.
     EXPECT_FALSE(has(swept, "silhouette.cap"));
+    EXPECT_TRUE(has(swept, "ecology"));
+    EXPECT_FALSE(has(swept, "ecology.genet"));
     EXPECT_FALSE(has(swept, "limbs"));
     EXPECT_TRUE(has(branched, "limbs.height"));
     EXPECT_TRUE(has(branched, "ramification"));

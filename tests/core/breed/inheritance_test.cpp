@@ -26,6 +26,7 @@ TEST(Scaled, MultipliesLengthsAlone) {
     EXPECT_EQ(after.warts, before.warts);
     EXPECT_DOUBLE_EQ(twice.facts.height_m.to, 2.0 * own.facts.height_m.to);
     EXPECT_EQ(twice.spread, own.spread);
+    EXPECT_EQ(twice.ecology, own.ecology) << "mycelia do not grow with their bodies";
 }
 
 TEST(MostScale, IsWhereAnOutlineReachesItsRange) {
@@ -110,6 +111,24 @@ TEST(Crossed, KeepsWhatIsLockedOfTheFirst) {
         EXPECT_EQ(own.surface.hymenium.colour, first.surface.hymenium.colour);
         EXPECT_EQ(own.surface.hymenium.edge, second.surface.hymenium.edge);
     }
+}
+
+TEST(Crossed, LivesWhereOneParentDoesAndOnWoodIfItGrowsSideways) {
+    const Species &soil = species_of("amanita_muscaria"), &wood = species_of("pleurotus_ostreatus");
+    BreedingParams params;
+    int on_wood = 0;
+    for (params.seed = 0; params.seed < 30; ++params.seed) {
+        const Species child = crossed(soil, wood, Genes(params));
+        EXPECT_TRUE(child.ecology == soil.ecology || child.ecology == wood.ecology);
+        EXPECT_EQ(child.is_lateral(), child.ecology.guild == Guild::wood) << params.seed;
+        on_wood += child.ecology.guild == Guild::wood ? 1 : 0;
+    }
+    EXPECT_GT(on_wood, 5);
+    EXPECT_LT(on_wood, 25);
+    params.share = 1.0;
+    EXPECT_EQ(crossed(soil, wood, Genes(params)).ecology, wood.ecology);
+    params.lock = {Text<64>("ecology")};
+    EXPECT_EQ(crossed(soil, wood, Genes(params)).ecology, soil.ecology);
 }
 
 }  // namespace

@@ -81,6 +81,18 @@ TEST(Offspring, IsTheSameForEqualParametersOnly) {
               "Bred of amanita_muscaria and boletus_edulis: seed 7, share 0.5, mutation 0.2");
 }
 
+TEST(Offspring, HasAnIdThatNoEcologyChanges) {
+    const Species &a = species_of("amanita_muscaria"), &b = species_of("boletus_edulis");
+    Species elsewhere = a;
+    elsewhere.ecology.genet.life = 7.0;
+    const BreedingParams params{.seed = 7, .lock = {Text<64>("ecology")}};
+    const Species child = offspring(a, b, params).species,
+                  other = offspring(elsewhere, b, params).species;
+    EXPECT_EQ(other.id, child.id) << "individuals draw by it";
+    EXPECT_EQ(child.ecology, a.ecology);
+    EXPECT_EQ(other.ecology, elsewhere.ecology);
+}
+
 TEST(Offspring, OfHybridsNamesOneOfEach) {
     const Species child =
         offspring(species_of("amanita_muscaria"), species_of("boletus_edulis"), {.seed = 7})

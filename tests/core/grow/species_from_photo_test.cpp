@@ -84,6 +84,7 @@ TEST(SpeciesFromPhoto, HasTheShapeTheHeightAndTheRequestedId) {
     EXPECT_EQ(facts.sources.at(0).view(),
               "Traced from a photograph; what it does not show is that of boletus_edulis");
     EXPECT_EQ(facts.habitat.view(), lent.habitat.view());
+    EXPECT_EQ(found.whole.species.ecology, small_atlas()->find("boletus_edulis")->species.ecology);
     // In pixels of the photograph: from the foot to the apex.
     EXPECT_NEAR(found.traced.left.front().y, bolete().gesture.axis.front().y, 40.0);
     EXPECT_LT(found.traced.left.back().y, found.traced.left.front().y);

@@ -34,7 +34,7 @@ function isOfParts({ properties = {} }: DocumentSchema): boolean {
 /** Returns the parts of species of a family that can be locked, by the schema of a species. */
 export function locksOf(species: DocumentSchema, family: string): LockGroup[] {
     const whole: LockGroup = { label: "Whole", locks: [...ofWhole] };
-    for (const name of ["spread", "ground"]) {
+    for (const name of ["spread", "ground", "ecology"]) {
         const part = species.properties?.[name];
         if (part) whole.locks.push(lockOf(name, part));
     }
