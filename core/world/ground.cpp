@@ -93,7 +93,9 @@ Ground ground_of(const WorldParams& params) {
 std::string ground_key(const WorldParams& params) {
     std::string key =
         "ground " + std::to_string(params.seed) + ' ' + std::to_string(params.extent.value) + ' ';
-    canonical(params.terrain, key);
+    TerrainParams terrain = params.terrain;
+    terrain.micro = 0.0;  // is added where the ground is shown
+    canonical(terrain, key);
     return key;
 }
 

@@ -98,20 +98,35 @@ class Weather {
 
 }  // namespace
 
+namespace {
+
+/// Returns the cosine of the hour angle of sunset.
+double sunset_cosine(const SineCosine& latitude, const SineCosine& declination) {
+    return std::clamp(-(latitude.sine / latitude.cosine) * (declination.sine / declination.cosine),
+                      -1.0, 1.0);
+}
+
+double hour_angle_of(double cosine) {
+    return arc_tangent(std::sqrt(1.0 - cosine * cosine), cosine);
+}
+
+}  // namespace
+
+double sun_declination(int day) { return 0.409 * sine(2.0 * pi * day / days_of_year - 1.39); }
+
+double sunset_hour_angle(double latitude, double declination) {
+    return hour_angle_of(sunset_cosine(sine_cosine(latitude), sine_cosine(declination)));
+}
+
 double sun_above_air(double latitude, int day) {
     constexpr double solar_constant = 0.0820;  // MJ per square metre and minute
     const double angle = 2.0 * pi * day / days_of_year;
     const double distance = 1.0 + 0.033 * cosine(angle);
-    const double declination = 0.409 * sine(angle - 1.39);
-    const auto [sine_latitude, cosine_latitude] = sine_cosine(latitude);
-    const auto [sine_sun, cosine_sun] = sine_cosine(declination);
-    // The cosine of the hour angle of sunset.
-    const double sunset =
-        std::clamp(-(sine_latitude / cosine_latitude) * (sine_sun / cosine_sun), -1.0, 1.0);
-    const double hour_angle = arc_tangent(std::sqrt(1.0 - sunset * sunset), sunset);
+    const SineCosine place = sine_cosine(latitude), sun = sine_cosine(sun_declination(day));
+    const double sunset = sunset_cosine(place, sun);
     return 24.0 * 60.0 / pi * solar_constant * distance *
-           (hour_angle * sine_latitude * sine_sun +
-            cosine_latitude * cosine_sun * std::sqrt(1.0 - sunset * sunset));
+           (hour_angle_of(sunset) * place.sine * sun.sine +
+            place.cosine * sun.cosine * std::sqrt(1.0 - sunset * sunset));
 }
 
 WeatherYear weather_of(const ClimateParams& climate, std::uint32_t seed, int year) {

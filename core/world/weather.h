@@ -36,6 +36,19 @@ using WeatherYear = std::array<WeatherDay, days_of_year>;
 ///         [Oudin2005], sun above the air by [Allen1998]
 [[nodiscard]] WeatherYear weather_of(const ClimateParams& climate, std::uint32_t seed, int year);
 
+/// Returns the angle of the sun from the plane of the equator on a day, 1 to 365: radians, positive in the northern
+/// summer.
+///
+/// source  [Allen1998] eq. 24
+[[nodiscard]] double sun_declination(int day);
+
+/// Returns the hour angle of sunset, radians: half the length of the day, which is pi where the sun never sets.
+///
+/// latitude     radians, less than 67 degrees from the equator
+/// declination  of the sun, radians
+/// source       [Allen1998] eq. 25
+[[nodiscard]] double sunset_hour_angle(double latitude, double declination);
+
 /// Returns the sun's energy that reaches a level square metre above the air on a day, MJ.
 ///
 /// latitude  radians, less than 67 degrees from the equator
