@@ -1,0 +1,119 @@
+#include "core/world/dead_wood.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/world/tree_growth.h"
+
+namespace sporeprint::dead_wood_test {
+namespace {
+
+Stand wood() {
+    Stand stand;
+    stand.seed = 7;
+    stand.kinds.push_back({"broadleaf", 1.0, {}});
+    return stand;
+}
+
+struct Block {
+    std::vector<StandTree> trees;
+    std::vector<DeadWood> dead;
+};
+
+/// Returns a square of blocks, on ground of one slope.
+Block blocks_of(const Stand& stand, const FallSite& slope, double downwind) {
+    Block out;
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+            const std::vector<StandTree> trees =
+                trees_of(stand, [](WorldPoint) { return Site{}; }, {x, y});
+            const std::vector<DeadWood> dead = dead_wood_of(
+                stand, trees, [&](WorldPoint) { return slope; }, downwind);
+            out.trees.insert(out.trees.end(), trees.begin(), trees.end());
+            out.dead.insert(out.dead.end(), dead.begin(), dead.end());
+        }
+    return out;
+}
+
+constexpr double area = 4.0 * block_side * block_side / 1e4;  // hectares
+
+/// Returns the volume of a dead trunk, a frustum whose top has a fifth of the radius of its foot.
+double volume(const DeadWood& wood, WorldTime time) {
+    const double radius = radius_at(wood, time);
+    return pi / 3.0 * (1.0 + 0.2 + 0.04) * radius * radius * wood.length;
+}
+
+TEST(DeadWood, IsAsMuchAsInAWoodThatNobodyManages) {
+    const Block block = blocks_of(wood(), {}, 0.0);
+    double sum = 0.0;
+    for (const DeadWood& one : block.dead)
+        if (one.died <= time_of(60) && time_of(60) < one.gone) sum += volume(one, time_of(60));
+    EXPECT_GT(sum / area, 20.0);
+    EXPECT_LT(sum / area, 150.0);
+}
+
+TEST(DeadWood, LosesItsMassByTheLawOfItsKind) {
+    DeadWood beech;
+    beech.died = time_of(-3);
+    beech.decay = 0.054;
+    beech.radius = 0.2;
+    EXPECT_EQ(mass_lost(beech, time_of(-5)), 0.0);
+    EXPECT_NEAR(1.0 - mass_lost(beech, time_of(7)), std::exp(-0.54), 1e-12);
+    EXPECT_NEAR(radius_at(beech, time_of(7)), 0.2 * std::exp(-0.27), 1e-12);
+}
+
+TEST(DeadWood, IsThereFromTheDeathOfATreeUntilItHasDecayed) {
+    const Block block = blocks_of(wood(), {}, 0.0);
+    std::map<std::uint64_t, StandTree> trees;
+    for (const StandTree& tree : block.trees) trees[tree.id] = tree;
+    ASSERT_GT(block.dead.size(), 50U);
+    for (const DeadWood& one : block.dead) {
+        const StandTree& tree = trees.at(one.tree);
+        EXPECT_EQ(one.died, tree.died);
+        EXPECT_EQ(one.at, tree.at);
+        EXPECT_EQ(one.fell == one.died, tree.by_storm);
+        EXPECT_LE(years_between(one.died, one.fell), 15.0);
+        EXPECT_NEAR(mass_lost(one, one.gone), 0.85, 0.001);
+        EXPECT_LT(one.length, height_at(tree, tree.died));
+    }
+}
+
+TEST(DeadWood, LiesDownwindAndOnSlopesAlsoDownhill) {
+    const auto mean_direction = [](const std::vector<DeadWood>& dead) {
+        double x = 0.0, y = 0.0;
+        for (const DeadWood& one : dead) {
+            x += std::cos(one.direction);
+            y += std::sin(one.direction);
+        }
+        return std::atan2(y, x);
+    };
+    EXPECT_NEAR(mean_direction(blocks_of(wood(), {}, 1.0).dead), 1.0, 0.1);
+    // The ground rises to the east, so that downhill is west; half of the trunks go there.
+    double west = 0.0, all = 0.0;
+    for (const DeadWood& one : blocks_of(wood(), {0.5, 0.0}, 0.0).dead) {
+        west += std::cos(one.direction) < 0.0 ? 1.0 : 0.0;
+        all += 1.0;
+    }
+    EXPECT_NEAR(west / all, 0.5, 0.08);
+}
+
+TEST(DeadWood, IsTakenAwayOrLastsLongerAsTheParameterSays) {
+    const std::size_t all = blocks_of(wood(), {}, 0.0).dead.size();
+    Stand managed = wood();
+    managed.params.dead_wood = 0.25;
+    EXPECT_NEAR(static_cast<double>(blocks_of(managed, {}, 0.0).dead.size()),
+                0.25 * static_cast<double>(all), 0.06 * static_cast<double>(all));
+    managed.params.dead_wood = 0.0;
+    EXPECT_TRUE(blocks_of(managed, {}, 0.0).dead.empty());
+    managed.params.dead_wood = 2.0;
+    const TreeEcology& ecology = managed.kinds[0].ecology;
+    EXPECT_NEAR(years_of_decay(managed.params, ecology),
+                2.0 * years_of_decay(wood().params, ecology), 1e-9);
+}
+
+}  // namespace
+}  // namespace sporeprint::dead_wood_test
