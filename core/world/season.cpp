@@ -1,0 +1,842 @@
+#include "core/world/season.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/world/cell_random.h"
+#include "core/world/tree_growth.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Rain is that of so many days; half of the bodies come at so many mm of it.
+constexpr double days_of_rain = 12.0, half_rain = 20.0, rain_width = 5.0;
+
+/// Wetness at which half of the bodies come.
+constexpr double half_wetness = 0.5, wetness_width = 0.07;
+
+/// Nights are colder than the mean of the day by this much, K. Below this temperature three nights in a row stop
+/// species that tolerate no frost; others tolerate as much more as they tolerate frost.
+constexpr double colder_nights = 4.0, cold_night = 5.5;
+constexpr int cold_nights = 3;
+
+/// Days before and after the months of fruiting.
+constexpr double soft_days = 10.0;
+
+/// Share of good days that a mycelium needs per day, and the days between two flushes.
+constexpr double flush_rate = 0.12;
+constexpr int rest_days = 14;
+constexpr int most_flushes = 8;
+
+/// Less than this allows nothing: without rain, nothing fruits.
+constexpr double least_gate = 0.02;
+
+/// Bodies of a flush emerge within so many days.
+constexpr double emergence_days = 2.0;
+
+/// Ring round a grown host, in radii of its crown, and its variation among hosts (of the logarithm).
+constexpr double ring_per_crown = 0.7, ring_variation = 0.25;
+
+/// A second ring, of bodies nearer to the host.
+constexpr double inner_ring = 0.27;
+
+/// How near two bodies come, in radii of their caps: those in tufts crowd.
+constexpr double core = 0.5, core_in_tufts = 0.2;
+
+/// Bells lie within three standard deviations.
+constexpr double widest = 3.0;
+
+double logistic(double x) { return 1.0 / (1.0 + exponential(-x)); }
+
+std::int32_t units(double value) {
+    return static_cast<std::int32_t>(std::floor(value * units_of_metre + 0.5));
+}
+
+WorldTime ticks_of_days(double days) {
+    return static_cast<WorldTime>(std::floor(days * ticks_of_day + 0.5));
+}
+
+double distance(WorldPoint a, WorldPoint b) {
+    const double dx = metres(a.x) - metres(b.x), dy = metres(a.y) - metres(b.y);
+    return std::sqrt(dx * dx + dy * dy);
+}
+
+/// Numbers of at least one: one more than those of a Poisson distribution.
+class AtLeastOne {
+  public:
+    AtLeastOne() = default;
+    explicit AtLeastOne(double mean)
+        : more_(std::max(0.0, mean - 1.0)), none_(exponential(-more_)) {}
+    /// Returns the number of a draw, 0 <= draw < 1.
+    [[nodiscard]] int operator()(double draw) const {
+        constexpr int most = 300;
+        double term = none_, sum = term;
+        int number = 1;
+        while (draw >= sum && number < most) {
+            term *= more_ / number;
+            ++number;
+            sum += term;
+        }
+        return number;
+    }
+
+  private:
+    double more_ = 0.0, none_ = 1.0;
+};
+
+double core_of(const FungusSpecies& species) {
+    const bool is_tufted = species.ecology.fruit.tufts > 1.2;
+    return species.cap_radius * (is_tufted ? core_in_tufts : core);
+}
+
+/// Returns for each day of a year how far the months allow a species to fruit.
+std::array<double, days_of_year> month_gate(std::uint16_t months) {
+    constexpr std::array<int, 12> lengths{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    std::array<double, days_of_year> gate{};
+    if ((months & 0xFFFU) == 0) {
+        gate.fill(1.0);
+        return gate;
+    }
+    std::array<bool, days_of_year> fruits{};
+    std::size_t day = 0;
+    for (std::size_t month = 0; month < lengths.size(); ++month)
+        for (int i = 0; i < lengths[month]; ++i) fruits[day++] = (months >> month & 1U) != 0;
+    constexpr auto reach = static_cast<int>(soft_days);
+    for (int d = 0; d < days_of_year; ++d)
+        for (int shift = -reach; shift <= reach; ++shift) {
+            const int other = (d + shift + days_of_year) % days_of_year;
+            if (!fruits[static_cast<std::size_t>(other)]) continue;
+            double& value = gate[static_cast<std::size_t>(d)];
+            value = std::max(value, 1.0 - std::abs(shift) / soft_days);
+        }
+    return gate;
+}
+
+/// Two years of weather, counted from the first day of the second one.
+class WeatherBefore {
+  public:
+    WeatherBefore(const WeatherYear& before, const WeatherYear& year)
+        : before_(before), year_(year) {}
+    const WeatherDay& operator[](int day) const {
+        return day >= 0 ? year_[static_cast<std::size_t>(day)]
+                        : before_[static_cast<std::size_t>(day + days_of_year)];
+    }
+
+  private:
+    const WeatherYear &before_, &year_;
+};
+
+/// Returns the weights of the rain of the days before, the nearest first: a gamma distribution of shape 3. Their sum is
+/// days_of_rain.
+std::vector<double> rain_weights(int memory) {
+    std::vector<double> weights;
+    weights.reserve(static_cast<std::size_t>(4 * memory));
+    double sum = 0.0;
+    for (int day = 0; day < 4 * memory; ++day) {
+        const double time = (day + 0.5) / memory;
+        weights.push_back(time * time * exponential(-3.0 * time));
+        sum += weights.back();
+    }
+    for (double& weight : weights) weight *= days_of_rain / sum;
+    return weights;
+}
+
+/// The arcs that a ring of fruit bodies is broken into: of equal length, at uneven distances.
+class Arcs {
+  public:
+    Arcs(const RingHabit& habit, CellRandom random)
+        : count_(static_cast<std::size_t>(std::clamp(habit.arcs, 1, 16))),
+          length_(2.0 * pi * habit.covered / static_cast<double>(count_)) {
+        double sum = 0.0;
+        const double phase = random.uniform();
+        std::array<double, 16> gaps{};
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double draw = random.uniform();
+            gaps[i] = 0.05 + draw * draw;
+            sum += gaps[i];
+        }
+        double angle = 2.0 * pi * phase;
+        for (std::size_t i = 0; i < count_; ++i) {
+            begin_[i] = angle;
+            angle += length_ + gaps[i] / sum * 2.0 * pi * (1.0 - habit.covered);
+        }
+    }
+    /// Returns the angle of a share of all arcs, 0 <= share < 1.
+    [[nodiscard]] double angle(double share) const {
+        const double place = share * static_cast<double>(count_);
+        const auto arc = std::min(static_cast<std::size_t>(place), count_ - 1);
+        return begin_[arc] + (place - static_cast<double>(arc)) * length_;
+    }
+
+  private:
+    std::size_t count_;
+    double length_;
+    std::array<double, 16> begin_{};
+};
+
+/// A body that may grow, and from which abundance on it does.
+struct Sprout {
+    FruitBody body;
+    double appears = 0.0;
+};
+
+/// Where a cluster is, and how bodies about it are placed.
+struct Cluster {
+    double appears = 0.0;
+    WorldTime flush = 0;
+    WorldPoint at;
+};
+
+/// The fruit bodies of one block.
+class Season {
+  public:
+    Season(const Fungi& fungi, const BlockYear& input, const SeasonConditions& conditions,
+           double abundance)
+        : fungi_(fungi),
+          input_(input),
+          conditions_(conditions),
+          abundance_(abundance),
+          begin_(time_of(input.year)),
+          end_(time_of(input.year + 1)),
+          west_(std::int64_t{input.block.x} * block_side * units_of_metre),
+          south_(std::int64_t{input.block.y} * block_side * units_of_metre) {
+        for (std::size_t i = 0; i <= gate_steps; ++i)
+            gates_.push_back(moisture_gate(static_cast<double>(i) / gate_steps));
+        for (const FungusSpecies& species : fungi.species)
+            spacing_ = std::max(spacing_, 2.0 * core_of(species));
+        // The widest ring, 1.5 crowns of 5 m, its spread and that of the clusters on it.
+        constexpr double farthest_host = 28.0;
+        for (const StandTree& tree : input.around.trees)
+            if (tree.lives_at(begin_) && years_between(tree.born, end_) >= age_of_host &&
+                is_near(tree.at, farthest_host))
+                trees_.push_back({&tree, crown_radius(height_at(tree, begin_))});
+        // By x, so that those near a mycelium are found quickly.
+        std::ranges::sort(
+            trees_, {}, [](const Host& host) { return std::pair(host.tree->at.x, host.tree->id); });
+        of_species_.resize(fungi.species.size());
+        for (const Genet& genet : input.genets)
+            if (genet.species < of_species_.size() && genet.born < end_ && genet.died > begin_)
+                of_species_[genet.species].push_back(&genet);
+        wood_.reserve(input.around.wood.size());
+        for (const DeadWood& wood : input.around.wood) wood_.push_back(&wood);
+        std::ranges::sort(wood_, {}, [](const DeadWood* wood) { return wood->id; });
+    }
+
+    std::vector<FruitBody> bodies() {
+        for (std::size_t i = 0; i < fungi_.species.size(); ++i) {
+            index_ = i;
+            species_ = &fungi_.species[i];
+            tufts_ = AtLeastOne(species_->ecology.fruit.clusters);
+            bodies_of_tuft_ = AtLeastOne(species_->ecology.fruit.tufts);
+            for (Host& host : trees_) host.ring = -1.0;
+            gather_genets();
+            for (const Genet* genet : genets_)
+                if (species_->ecology.guild != Guild::wood)
+                    fruit_on_ground(*genet);
+                else if (species_->ecology.body.perennial)
+                    add_brackets(*genet);
+                else
+                    fruit_on_wood(*genet);
+        }
+        std::vector<FruitBody> out = spaced(sprouts_);
+        std::erase_if(out,
+                      [&](const FruitBody& body) { return !(block_at(body.at) == input_.block); });
+        out.insert(out.end(), brackets_.begin(), brackets_.end());
+        std::ranges::sort(out, {}, &FruitBody::id);
+        return out;
+    }
+
+  private:
+    struct Host {
+        const StandTree* tree;
+        double crown;
+        double ring = -1.0;  ///< of the species; negative if not yet computed
+    };
+    /// A day on which the weather allows the species to fruit.
+    struct GoodDay {
+        int day;
+        double gate, soil_water;
+    };
+    static constexpr std::size_t gate_steps = 1024;
+
+    /// Returns whether a place is in the block or at most so many metres from it in each direction.
+    [[nodiscard]] bool is_near(WorldPoint place, double most) const {
+        const auto margin = static_cast<std::int64_t>(std::ceil(most * units_of_metre));
+        constexpr std::int64_t size = std::int64_t{block_side} * units_of_metre;
+        const std::int64_t x = place.x - west_, y = place.y - south_;
+        return x >= -margin && y >= -margin && x < size + margin && y < size + margin;
+    }
+
+    /// Collects the mycelia of the species that may have bodies in the block or own places there, and the days on which
+    /// the weather allows them to fruit.
+    void gather_genets() {
+        genets_.clear();
+        const Ecology& ecology = species_->ecology;
+        scatter_ = widest * (ecology.fruit.cluster_spread + ecology.fruit.tuft_spread);
+        constexpr double longest_trunk = 32.0;
+        const double most =
+            ecology.guild == Guild::wood
+                ? longest_trunk
+                : 2.0 * ecology.genet.reach + widest * ecology.ring.spread + scatter_ + spacing_;
+        for (const Genet* genet : of_species_[index_])
+            if (is_near(genet->centre, most)) genets_.push_back(genet);
+        good_days_.clear();
+        for (int day = 0; day < days_of_year; ++day) {
+            const auto i = static_cast<std::size_t>(day);
+            const double gate = conditions_.species[index_][i].all();
+            if (gate >= least_gate) good_days_.push_back({day, gate, conditions_.soil_water[i]});
+        }
+    }
+
+    /// Returns the days, 0 to 364, on which a mycelium begins to fruit.
+    std::vector<int> flushes_of(const Genet& genet, const Site& site) const {
+        std::vector<int> days;
+        CellRandom random(fungi_.seed, purposes::flushes, static_cast<std::uint32_t>(input_.year),
+                          genet.id);
+        const double first = random.uniform();
+        double needed = -logarithm(1.0 - first), sum = 0.0;
+        int rested = 0;
+        for (const GoodDay& good : good_days_) {
+            if (good.day < rested || !genet.lives_at(time_of(input_.year, good.day + 1))) continue;
+            const double wetness = fungi_.habitat.wetness_on(site, good.soil_water);
+            const double gate =
+                good.gate * gates_[static_cast<std::size_t>(std::clamp(wetness, 0.0, 1.0) *
+                                                            static_cast<double>(gate_steps))];
+            if (gate < least_gate) continue;
+            sum += flush_rate * gate;
+            if (sum < needed) continue;
+            days.push_back(good.day);
+            if (days.size() == most_flushes) break;
+            const double next = random.uniform();
+            needed = -logarithm(1.0 - next);
+            sum = 0.0;
+            rested = good.day + rest_days;
+        }
+        return days;
+    }
+
+    /// Calls a function for each cluster that appears at the abundance: with its number and from which abundance on it
+    /// is there.
+    template <typename Place>
+    void for_clusters(double bodies, std::uint64_t key, std::uint32_t flush, const Place& place) {
+        const FruitHabit& fruit = species_->ecology.fruit;
+        const double mean = bodies / (fruit.clusters * fruit.tufts);
+        if (!(mean > 0.0)) return;
+        CellRandom random(fungi_.seed, purposes::fruit_places, flush, key);
+        double appears = 0.0;
+        constexpr std::uint32_t most = 20000;
+        for (std::uint32_t i = 0; i < most; ++i) {
+            const double wait = random.uniform();
+            appears += -logarithm(1.0 - wait) / mean;
+            if (appears > abundance_) return;
+            place(appears,
+                  CellRandom(fungi_.seed, purposes::fruit_places, i + 1, mixed(key, flush, 1)));
+        }
+    }
+
+    [[nodiscard]] std::uint32_t flush_number(std::size_t flush) const {
+        return static_cast<std::uint32_t>(input_.year) * 16U + static_cast<std::uint32_t>(flush) +
+               1U;
+    }
+
+    /// Sets the times of a body that belongs to a flush.
+    void set_times(FruitBody& body, WorldTime flush, CellRandom& random) const {
+        const BodyLife& life = species_->ecology.body;
+        const double wait = random.uniform(), growth = random.uniform(), rest = random.uniform();
+        body.emerged = flush + ticks_of_days(2.0 * emergence_days * wait);
+        // So that the year of its flush is the year of a body.
+        if (!life.perennial) body.emerged = std::min(body.emerged, end_ - 1);
+        body.matured =
+            body.emerged + std::max(1, ticks_of_days(life.days_to_mature * (0.8 + 0.4 * growth)));
+        body.gone = body.matured + std::max(1, ticks_of_days(life.days_alive * (0.7 + 0.6 * rest)));
+        if (!life.perennial) body.gone = std::min(body.gone, body.emerged + ticks_of_year);
+        body.matured = std::min(body.matured, body.gone - 1);
+    }
+
+    /// Collects the mycelia of the species that a mycelium may meet within so many metres of its margin.
+    void gather_rivals(const Genet& genet, double margin) {
+        rivals_.clear();
+        const double radius = radius_at(genet, end_) + margin;
+        for (const Genet* other : genets_)
+            if (other != &genet &&
+                distance(other->centre, genet.centre) <= radius + radius_at(*other, end_))
+                rivals_.push_back(other);
+    }
+
+    /// Returns whether no other mycelium has a place that one reaches at a moment or later.
+    [[nodiscard]] bool is_free(const Genet& genet, WorldPoint place, WorldTime time) const {
+        if (rivals_.empty()) return true;
+        const double now = static_cast<double>(time) / ticks_of_year;
+        const double mine = arrival(genet, distance(genet.centre, place));
+        return std::ranges::none_of(rivals_, [&](const Genet* other) {
+            if (!other->lives_at(time)) return false;
+            const double theirs = arrival(*other, distance(other->centre, place));
+            return theirs <= now && (theirs < mine || (theirs == mine && other->id < genet.id));
+        });
+    }
+
+    void fruit_on_ground(const Genet& genet) {
+        const Ecology& ecology = species_->ecology;
+        if (!is_near(genet.centre,
+                     genet.reach + scatter_ + spacing_ + widest * ecology.ring.spread))
+            return;
+        const Site site = fungi_.habitat.site_at(genet.centre, begin_);
+        const double suits = suitability(ecology, site);
+        if (!(suits > 0.0)) return;
+        const std::vector<int> days = flushes_of(genet, site);
+        if (days.empty()) return;
+        gather_rivals(genet, scatter_ + widest * ecology.ring.spread);
+        for (std::size_t i = 0; i < days.size(); ++i) {
+            const WorldTime flush = time_of(input_.year, days[i] + 1);
+            if (ecology.guild == Guild::ectomycorrhizal && !ecology.ring.pioneer)
+                fruit_round_hosts(genet, flush, flush_number(i), suits);
+            else
+                fruit_on_own_ring(genet, flush, flush_number(i), suits);
+        }
+    }
+
+    /// Places bodies on the ring of a mycelium: of pioneers about its margin, otherwise in the band behind that.
+    void fruit_on_own_ring(const Genet& genet, WorldTime flush, std::uint32_t number,
+                           double suits) {
+        const Ecology& ecology = species_->ecology;
+        const RingHabit& ring = ecology.ring;
+        const double radius = radius_at(genet, flush);
+        if (!(radius > 0.0)) return;
+        const bool is_pioneer = ecology.guild == Guild::ectomycorrhizal;
+        const double breadth = std::min(ring.spread, radius);
+        const double length = 2.0 * pi * radius;
+        const double size =
+            ecology.guild == Guild::litter ? (length - pi * breadth) * breadth : length;
+        const Arcs arcs(
+            ring, CellRandom(fungi_.seed, purposes::mycelium_arcs, species_->stream, genet.id));
+        for_clusters(
+            ecology.fruit.density * size * suits, genet.id, number,
+            [&](double appears, CellRandom random) {
+                const double share = random.uniform(), across = random.uniform(),
+                             which = random.uniform(), spread = random.bell();
+                const double angle = arcs.angle(share);
+                double away = radius - breadth * across;
+                if (is_pioneer)
+                    away = (which < ring.inner ? inner_ring : 1.0) * radius +
+                           ring.spread * spread * (which < ring.inner ? inner_ring : 1.0);
+                add_cluster(genet, {appears, flush, at(genet.centre, away, angle)}, random);
+            });
+    }
+
+    /// Places bodies round the hosts that a mycelium has reached.
+    void fruit_round_hosts(const Genet& genet, WorldTime flush, std::uint32_t number,
+                           double suits) {
+        const Ecology& ecology = species_->ecology;
+        const RingHabit& ring = ecology.ring;
+        const double radius = radius_at(genet, flush);
+        constexpr double widest_ring = 7.5;  // 1.5 crowns of 5 m
+        const std::int32_t window = units(radius + widest_ring + widest * ring.spread);
+        for (auto host =
+                 std::ranges::lower_bound(trees_, genet.centre.x - window, {},
+                                          [](const Host& other) { return other.tree->at.x; });
+             host != trees_.end() && host->tree->at.x <= genet.centre.x + window; ++host) {
+            const StandTree& tree = *host->tree;
+            if (!species_->lives_with(tree.kind) ||
+                distance(tree.at, genet.centre) >
+                    radius + 1.5 * host->crown + widest * ring.spread ||
+                !tree.lives_at(flush) || years_between(tree.born, flush) < age_of_host)
+                continue;
+            CellRandom of_tree(fungi_.seed, purposes::mycelium_arcs, species_->stream, tree.id);
+            const double wide = of_tree.bell();
+            if (host->ring < 0.0)
+                host->ring = ring_per_crown * host->crown * exponential(ring_variation * wide);
+            const double middle = host->ring;
+            const double most = middle + widest * ring.spread;
+            if (distance(tree.at, genet.centre) > radius + most ||
+                !is_near(tree.at, most + scatter_ + spacing_))
+                continue;
+            const Arcs arcs(ring, of_tree);
+            for_clusters(
+                ecology.fruit.density * 2.0 * pi * middle * suits, mixed(genet.id, tree.id, 0),
+                number, [&](double appears, CellRandom random) {
+                    const double share = random.uniform(), which = random.uniform(),
+                                 spread = random.bell();
+                    const double away =
+                        (middle + ring.spread * spread) * (which < ring.inner ? inner_ring : 1.0);
+                    const WorldPoint place = at(tree.at, away, arcs.angle(share));
+                    if (distance(place, genet.centre) <= radius &&
+                        is_near(place, scatter_ + spacing_) && is_free(genet, place, flush))
+                        add_cluster(genet, {appears, flush, place}, random);
+                });
+        }
+    }
+
+    /// Returns the place in a direction and distance.
+    static WorldPoint at(WorldPoint centre, double away, double angle) {
+        const auto [sine, cosine] = sine_cosine(angle);
+        return {centre.x + units(away * cosine), centre.y + units(away * sine)};
+    }
+
+    /// Adds the bodies of a cluster on the ground.
+    void add_cluster(const Genet& genet, const Cluster& cluster, CellRandom& random) {
+        if (!is_near(cluster.at, scatter_ + spacing_)) return;
+        const FruitHabit& fruit = species_->ecology.fruit;
+        const double draw = random.uniform();
+        const int tufts = tufts_(draw);
+        for (int tuft = 0; tuft < tufts; ++tuft) {
+            const double east = random.bell(), north = random.bell(), many = random.uniform();
+            const WorldPoint middle{cluster.at.x + units(fruit.cluster_spread * east),
+                                    cluster.at.y + units(fruit.cluster_spread * north)};
+            const int number = bodies_of_tuft_(many);
+            for (int i = 0; i < number; ++i) {
+                const double x = random.bell(), y = random.bell();
+                Sprout sprout;
+                sprout.appears = cluster.appears;
+                FruitBody& body = sprout.body;
+                body.id = random.identifier();
+                body.at = {middle.x + units(fruit.tuft_spread * x),
+                           middle.y + units(fruit.tuft_spread * y)};
+                body.species = static_cast<std::uint8_t>(index_);
+                body.genet = genet.id;
+                set_times(body, cluster.flush, random);
+                if (!is_near(body.at, spacing_)) continue;
+                // Bodies of a cluster near the margin may stand before it, but not on another mycelium.
+                if (is_free(genet, body.at, cluster.flush)) sprouts_.push_back(sprout);
+            }
+        }
+    }
+
+    [[nodiscard]] const DeadWood* trunk_of(const Genet& genet) const {
+        const auto found = std::ranges::lower_bound(wood_, genet.host, {},
+                                                    [](const DeadWood* wood) { return wood->id; });
+        return found != wood_.end() && (*found)->id == genet.host ? *found : nullptr;
+    }
+
+    /// Returns how far from the foot of a trunk the centre of a mycelium on it is, metres.
+    static double along(const DeadWood& wood, const Genet& genet) {
+        return std::min(wood.length, distance(wood.at, genet.centre));
+    }
+
+    /// Returns whether bodies on the part of a trunk that a mycelium reaches may stand in the block or near it.
+    [[nodiscard]] bool is_trunk_near(const DeadWood& wood, const Genet& genet) const {
+        const double margin = scatter_ + spacing_ + 2.0 * wood.radius;
+        return (wood.fell > begin_ || species_->ecology.body.perennial) && is_near(wood.at, margin)
+                   ? true
+                   : is_near(genet.centre, std::min(genet.reach, wood.length) + margin);
+    }
+
+    /// The part of a trunk that a mycelium has reached, and where it fruits.
+    struct Reached {
+        double from = 0.0, to = 0.0, area = 0.0;
+    };
+
+    static Reached reached(const DeadWood& wood, const Genet& genet, WorldTime time) {
+        const double middle = along(wood, genet), radius = radius_at(genet, time);
+        Reached out{std::max(0.0, middle - radius), std::min(wood.length, middle + radius)};
+        const double girth = 2.0 * pi * radius_at(wood, time) *
+                             (1.0 - 0.8 * 0.5 * (out.from + out.to) / wood.length);
+        out.area = girth * (out.to - out.from);
+        return out;
+    }
+
+    /// Returns whether a mycelium has a part of a trunk that it has reached.
+    [[nodiscard]] bool owns(const Genet& genet, const DeadWood& wood, double place,
+                            WorldTime time) const {
+        const double mine = arrival(genet, std::abs(place - along(wood, genet)));
+        for (const Genet* other : genets_) {
+            if (other == &genet || other->host != wood.id || !other->lives_at(time)) continue;
+            const double theirs = arrival(*other, std::abs(place - along(wood, *other)));
+            if (theirs < mine || (theirs == mine && other->id < genet.id)) return false;
+        }
+        return true;
+    }
+
+    void fruit_on_wood(const Genet& genet) {
+        const Ecology& ecology = species_->ecology;
+        const DeadWood* wood = trunk_of(genet);
+        if (wood == nullptr || !(wood->length > 0.0) || !is_trunk_near(*wood, genet)) return;
+        const Site site = fungi_.habitat.site_at(genet.centre, begin_);
+        const double suits = suitability(ecology, site);
+        if (!(suits > 0.0)) return;
+        const std::vector<int> days = flushes_of(genet, site);
+        for (std::size_t i = 0; i < days.size(); ++i) {
+            const WorldTime flush = time_of(input_.year, days[i] + 1);
+            const Reached part = reached(*wood, genet, flush);
+            for_clusters(
+                ecology.fruit.density * part.area * suits, genet.id, flush_number(i),
+                [&](double appears, CellRandom random) {
+                    const double share = random.uniform();
+                    const double place = part.from + share * (part.to - part.from);
+                    if (owns(genet, *wood, place, flush))
+                        add_on_bark(genet, *wood, {appears, flush, {}}, place, random, sprouts_);
+                });
+        }
+    }
+
+    /// Adds the bodies of a cluster on a trunk.
+    void add_on_bark(const Genet& genet, const DeadWood& wood, const Cluster& cluster, double place,
+                     CellRandom& random, std::vector<Sprout>& out) {
+        const FruitHabit& fruit = species_->ecology.fruit;
+        const bool stands = wood.stands_at(cluster.flush);
+        const double foot = radius_at(wood, cluster.flush);
+        if (!is_near(stands ? wood.at : at(wood.at, place, wood.direction),
+                     scatter_ + spacing_ + 2.0 * foot))
+            return;
+        const double draw = random.uniform(), turn = random.uniform(), side = random.bell();
+        // Round the trunk: of a standing one all sides, of a lying one the angle from the top.
+        const double middle = stands ? 2.0 * pi * turn : 0.65 * side;
+        const int tufts = tufts_(draw);
+        for (int tuft = 0; tuft < tufts; ++tuft) {
+            const double away = random.bell(), round = random.bell(), many = random.uniform();
+            const int number = bodies_of_tuft_(many);
+            for (int i = 0; i < number; ++i) {
+                const double x = random.bell(), y = random.bell();
+                Sprout sprout;
+                sprout.appears = cluster.appears;
+                FruitBody& body = sprout.body;
+                body.id = random.identifier();
+                body.species = static_cast<std::uint8_t>(index_);
+                body.genet = genet.id;
+                body.trunk = wood.id;
+                set_times(body, cluster.flush, random);
+                body.gone = std::min(body.gone, stands ? wood.fell : wood.gone);
+                body.matured = std::min(body.matured, body.gone - 1);
+                if (body.gone <= body.emerged + 1) continue;
+                const double position = place + fruit.cluster_spread * away + fruit.tuft_spread * x;
+                if (position < 0.0 || position > wood.length) continue;
+                const double radius = foot * (1.0 - 0.8 * position / wood.length);
+                const double bend =
+                    (fruit.cluster_spread * round + fruit.tuft_spread * y) / std::max(radius, 0.01);
+                put_on_bark(body, wood, stands, position, radius,
+                            stands ? middle + bend : std::clamp(middle + bend, -1.9, 1.9));
+                if (is_near(body.at, spacing_)) out.push_back(sprout);
+            }
+        }
+    }
+
+    /// Sets the place of a body on a trunk.
+    ///
+    /// angle  of a standing trunk the direction of the body, of a lying one its angle from the top to the left
+    static void put_on_bark(FruitBody& body, const DeadWood& wood, bool stands, double position,
+                            double radius, double angle) {
+        if (stands) {
+            body.at = at(wood.at, radius, angle);
+            body.height = position;
+            body.facing = angle - 2.0 * pi * std::floor(angle / (2.0 * pi));
+            body.pitch = 0.0;
+            return;
+        }
+        const auto [sine, cosine] = sine_cosine(angle);
+        const auto [north, east] = sine_cosine(wood.direction);
+        body.at = {wood.at.x + units(position * east - radius * sine * north),
+                   wood.at.y + units(position * north + radius * sine * east)};
+        body.height = radius * (1.0 + cosine);
+        const double left = wood.direction + (sine < 0.0 ? -0.5 : 0.5) * pi;
+        body.facing = left - 2.0 * pi * std::floor(left / (2.0 * pi));
+        body.pitch = 0.5 * pi - std::abs(angle);
+    }
+
+    /// Adds the perennial brackets of a mycelium: those of its whole life first, so that the year does not matter.
+    void add_brackets(const Genet& genet) {
+        const Ecology& ecology = species_->ecology;
+        const DeadWood* wood = trunk_of(genet);
+        if (wood == nullptr || !(wood->length > 0.0) || !is_trunk_near(*wood, genet)) return;
+        const double suits = suitability(ecology, fungi_.habitat.site_at(genet.centre, genet.born));
+        const Reached whole = reached(*wood, genet, genet.died - 1);
+        std::vector<Sprout> sprouts;
+        for_clusters(
+            ecology.fruit.density * whole.area * suits, genet.id, 0,
+            [&](double appears, CellRandom random) {
+                const double share = random.uniform(), when = random.uniform();
+                const double place = whole.from + share * (whole.to - whole.from);
+                const WorldTime time =
+                    genet.born +
+                    static_cast<WorldTime>(std::floor(when * (genet.died - genet.born)));
+                if (std::abs(place - along(*wood, genet)) <= radius_at(genet, time))
+                    add_bracket_cluster(genet, *wood, {appears, time, {}}, place, random, sprouts);
+            });
+        for (const FruitBody& body : spaced(sprouts))
+            if (body.emerged < end_ && body.gone > begin_ && block_at(body.at) == input_.block)
+                brackets_.push_back(body);
+    }
+
+    void add_bracket_cluster(const Genet& genet, const DeadWood& wood, const Cluster& cluster,
+                             double place, CellRandom& random, std::vector<Sprout>& out) {
+        std::vector<Sprout> sprouts;
+        add_on_bark(genet, wood, cluster, place, random, sprouts);
+        for (Sprout& sprout : sprouts) {
+            FruitBody& body = sprout.body;
+            body.gone = std::min(body.gone, genet.died);
+            body.matured = std::min(body.matured, body.gone - 1);
+            if (body.gone > body.emerged + 1) out.push_back(sprout);
+        }
+    }
+
+    /// Returns the bodies of sprouts that no sprout of higher priority stands too near to.
+    std::vector<FruitBody> spaced(const std::vector<Sprout>& sprouts) const {
+        struct Key {
+            std::int32_t x;
+            std::uint32_t index;
+        };
+        std::vector<Key> order;
+        order.reserve(sprouts.size());
+        for (std::size_t i = 0; i < sprouts.size(); ++i)
+            order.push_back({sprouts[i].body.at.x, static_cast<std::uint32_t>(i)});
+        // Each pair is compared, in whichever order those of equal x are.
+        std::ranges::sort(order, {}, &Key::x);
+        std::vector<bool> yields(sprouts.size(), false);
+        const auto widest_units = static_cast<std::int64_t>(std::ceil(spacing_ * units_of_metre));
+        for (std::size_t i = 0; i < order.size(); ++i)
+            for (std::size_t j = i + 1; j < order.size(); ++j) {
+                if (std::int64_t{order[j].x} - order[i].x > widest_units) break;
+                const Sprout &a = sprouts[order[i].index], &b = sprouts[order[j].index];
+                if (!are_crowded(a.body, b.body)) continue;
+                // Those that appear at a lower abundance have priority: a higher one removes none of them.
+                const bool first =
+                    a.appears != b.appears ? a.appears < b.appears : a.body.id < b.body.id;
+                yields[order[first ? j : i].index] = true;
+            }
+        std::vector<FruitBody> out;
+        out.reserve(sprouts.size());
+        for (std::size_t i = 0; i < sprouts.size(); ++i)
+            if (!yields[i]) out.push_back(sprouts[i].body);
+        return out;
+    }
+
+    [[nodiscard]] bool are_crowded(const FruitBody& a, const FruitBody& b) const {
+        const std::int64_t x = std::int64_t{b.at.x} - a.at.x, y = std::int64_t{b.at.y} - a.at.y;
+        if (std::abs(y) > units(spacing_) || a.emerged >= b.gone || b.emerged >= a.gone)
+            return false;
+        const std::int64_t least =
+            units(core_of(fungi_.species[a.species]) + core_of(fungi_.species[b.species]));
+        const std::int64_t height = std::int64_t{units(b.height)} - units(a.height);
+        return x * x + y * y + height * height < least * least;
+    }
+
+    const Fungi& fungi_;
+    const BlockYear& input_;
+    const SeasonConditions& conditions_;
+    double abundance_;
+    WorldTime begin_, end_;
+    std::int64_t west_, south_;
+    std::vector<double> gates_;
+    double spacing_ = 0.0, scatter_ = 0.0;
+    std::vector<Host> trees_;
+    std::vector<const DeadWood*> wood_;
+    std::size_t index_ = 0;
+    const FungusSpecies* species_ = nullptr;
+    std::vector<std::vector<const Genet*>> of_species_;
+    std::vector<const Genet*> genets_, rivals_;
+    std::vector<GoodDay> good_days_;
+    AtLeastOne tufts_, bodies_of_tuft_;
+    std::vector<Sprout> sprouts_;
+    std::vector<FruitBody> brackets_;
+};
+
+}  // namespace
+
+double moisture_gate(double wetness) { return logistic((wetness - half_wetness) / wetness_width); }
+
+SeasonConditions conditions_of(std::span<const FungusSpecies> species, const WeatherYear& before,
+                               const WeatherYear& year) {
+    const WeatherBefore weather(before, year);
+    SeasonConditions out;
+    out.species.resize(species.size());
+    for (std::size_t i = 0; i < species.size(); ++i) {
+        const Ecology& ecology = species[i].ecology;
+        const std::array<double, days_of_year> months = month_gate(species[i].months);
+        const std::vector<double> weights = rain_weights(ecology.fruit.rain_memory);
+        const double cold =
+            colder_nights + cold_night + std::min(0.0, ecology.temperature.tolerates.from);
+        for (int day = 0; day < days_of_year; ++day) {
+            FruitingDay& gate = out.species[i][static_cast<std::size_t>(day)];
+            gate.month = months[static_cast<std::size_t>(day)];
+            double mean = 0.0;
+            for (int back = 0; back < 5; ++back) mean += weather[day - back].temperature;
+            gate.temperature = ecology.temperature.at(mean / 5.0);
+            bool is_cold = true;
+            for (int back = 0; back < cold_nights; ++back)
+                is_cold = is_cold && weather[day - back].temperature < cold;
+            gate.cold = is_cold ? 0.0 : 1.0;
+            double rain = 0.0;
+            int back = 0;
+            for (const double weight : weights) rain += weight * weather[day - back++].rain;
+            gate.rain = logistic((rain - half_rain) / rain_width);
+        }
+    }
+    for (std::size_t day = 0; day < year.size(); ++day) out.soil_water[day] = year[day].soil_water;
+    return out;
+}
+
+std::vector<FruitBody> season_of(const Fungi& fungi, const BlockYear& input,
+                                 const SeasonConditions& conditions, double abundance) {
+    return Season(fungi, input, conditions, abundance).bodies();
+}
+
+double age_at(const FruitBody& body, WorldTime time) {
+    if (time <= body.emerged) return 0.0;
+    if (time >= body.gone) return 1.0;
+    constexpr double mature = 0.6, steepness = 5.89;
+    if (time >= body.matured)
+        return mature + (1.0 - mature) * (time - body.matured) / (body.gone - body.matured);
+    const double share = static_cast<double>(time - body.emerged) / (body.matured - body.emerged);
+    return mature * logistic(steepness * (share - 0.5)) / logistic(0.5 * steepness);
+}
+
+std::vector<std::array<std::uint32_t, days_of_year>> daily_counts(std::span<const FruitBody> bodies,
+                                                                  std::size_t species, int year) {
+    std::vector<std::array<std::uint32_t, days_of_year>> counts(species);
+    const WorldTime begin = time_of(year) + ticks_of_day / 2;
+    for (const FruitBody& body : bodies) {
+        if (body.species >= species) continue;
+        for (int day = std::max(0, (body.emerged - begin) / ticks_of_day); day < days_of_year;
+             ++day) {
+            const WorldTime noon = begin + day * ticks_of_day;
+            if (noon >= body.gone) break;
+            if (body.stands_at(noon)) ++counts[body.species][static_cast<std::size_t>(day)];
+        }
+    }
+    return counts;
+}
+
+Condition Limits::limiting() const {
+    return static_cast<Condition>(std::ranges::min_element(values) - values.begin());
+}
+
+Limits limits_at(const Fungi& fungi, const BlockYear& input, const SeasonConditions& conditions,
+                 std::size_t species, WorldPoint place, int day) {
+    const FungusSpecies& fungus = fungi.species[species];
+    const Ecology& ecology = fungus.ecology;
+    const WorldTime time = time_of(input.year, day);
+    const Site site = fungi.habitat.site_at(place, time);
+    const auto index = static_cast<std::uint8_t>(species);
+    Limits out;
+    const auto set = [&](Condition condition, double value) {
+        out.values[static_cast<std::size_t>(condition)] = value;
+    };
+    set(Condition::establishment, fungi.habitat.establishment(species, place, time));
+    set(Condition::light, ecology.light.at(site.light));
+    set(Condition::wetness, ecology.wetness.at(site.wetness));
+    set(Condition::acidity, ecology.acidity.at(site.acidity));
+    const FungusSubstrate substrate = substrate_at(input.around, fungus, place, time);
+    set(Condition::substrate, substrate.is_there ? 1.0 : 0.0);
+    const bool has_mycelium =
+        ecology.guild == Guild::wood
+            ? std::ranges::any_of(input.genets,
+                                  [&](const Genet& genet) {
+                                      return genet.species == index && genet.lives_at(time) &&
+                                             substrate.is_there && genet.host == substrate.record;
+                                  })
+            : owner_of(input.genets, index, place, time) != nullptr;
+    set(Condition::mycelium, has_mycelium ? 1.0 : 0.0);
+    const auto at = static_cast<std::size_t>(day - 1);
+    const FruitingDay& weather = conditions.species[species][at];
+    set(Condition::temperature, weather.temperature);
+    set(Condition::rain, weather.rain);
+    set(Condition::month, weather.month);
+    set(Condition::cold, weather.cold);
+    set(Condition::moisture,
+        moisture_gate(fungi.habitat.wetness_on(site, conditions.soil_water[at])));
+    return out;
+}
+
+}  // namespace sporeprint
