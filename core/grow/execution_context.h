@@ -34,7 +34,12 @@ constexpr const char* name(Step step) {
 }
 
 class Atlas;
+struct Block;
+struct BlockMycelia;
+struct BlockSeason;
 struct Ground;
+struct TreeMeshes;
+struct World;
 
 /// Called when a step begins. The caller measures time, core has no clock.
 using Observer = std::function<void(Step)>;
@@ -46,6 +51,11 @@ struct Caches {
     GetOrCompute<MorphSet> morphs = uncached<MorphSet>;  ///< correspondence of a set of species
     GetOrCompute<Atlas> offspring = uncached<Atlas>;     ///< atlases of one bred species each
     GetOrCompute<Ground> grounds = uncached<Ground>;     ///< of worlds
+    GetOrCompute<World> worlds = uncached<World>;        ///< without their blocks
+    GetOrCompute<Block> blocks = uncached<Block>;        ///< of worlds
+    GetOrCompute<BlockMycelia> mycelia = uncached<BlockMycelia>;
+    GetOrCompute<BlockSeason> seasons = uncached<BlockSeason>;
+    GetOrCompute<TreeMeshes> trees = uncached<TreeMeshes>;  ///< that stand on plots
 };
 
 struct ExecutionContext {

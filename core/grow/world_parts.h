@@ -1,0 +1,46 @@
+// The parts of a world that several products need, each computed once and cached: blocks of trees, mycelia, seasons.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/atlas/atlas.h"
+#include "core/grow/execution_context.h"
+#include "core/world/season.h"
+#include "core/world/world.h"
+
+namespace sporeprint {
+
+/// Returns how a world finds what an atlas has, which must outlive the result.
+[[nodiscard]] WorldLookup lookup_in(const Atlas& atlas);
+
+/// Returns the key of a block of a world for caches.
+[[nodiscard]] std::string block_key(const World& world, CellIndex block);
+
+/// Returns the trees and the dead wood of a block, cached in execution.caches or computed now.
+[[nodiscard]] std::shared_ptr<const Block> block_of_world(const World& world, CellIndex block,
+                                                          const ExecutionContext& execution);
+
+/// Returns the mycelia of a block in an epoch, cached or computed now.
+[[nodiscard]] std::shared_ptr<const BlockMycelia> mycelia_of_world(
+    const World& world, CellIndex block, int epoch, const ExecutionContext& execution);
+
+/// Returns the fruit bodies that stand in a block at some time of a year: those of the year and those of the year
+/// before that still stand. Cached or computed now.
+///
+/// cost  0.5 s where nothing is known of the surroundings, 5 ms where the mycelia are
+[[nodiscard]] std::shared_ptr<const BlockSeason> season_of_world(const World& world,
+                                                                 CellIndex block, int year,
+                                                                 const ExecutionContext& execution);
+
+/// Returns the trees and the dead wood of the blocks that a rectangle is part of, and of their neighbours, by
+/// ascending ids.
+[[nodiscard]] Block blocks_round(const World& world, const WorldBox& box,
+                                 const ExecutionContext& execution);
+
+/// Returns the fruit bodies in a rectangle at a moment, by ascending ids.
+[[nodiscard]] std::vector<FruitBody> bodies_in(const World& world, const WorldBox& box,
+                                               WorldTime time, const ExecutionContext& execution);
+
+}  // namespace sporeprint

@@ -1,0 +1,235 @@
+#include "core/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/math/elementary.h"
+#include "core/params/canonical.h"
+#include "core/params/messages.h"
+#include "core/problems.h"
+#include "core/world/tree_growth.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Years whose autumns are looked at, and their days: September and October.
+constexpr int years_of_mean = 4, first_day = 244, last_day = 304;
+
+/// The longest day of the north; in the south it is half a year later.
+constexpr int midsummer = 172, half_a_year = 182;
+
+bool is_southern(const WorldParams& params) { return params.climate.latitude_deg < 0.0; }
+
+double autumn_water_of(const WorldParams& params) {
+    const int later = is_southern(params) ? half_a_year : 0;
+    double sum = 0.0;
+    for (int year = 0; year < years_of_mean; ++year) {
+        const WeatherYear weather = weather_of(params.climate, params.seed, year);
+        for (int day = first_day; day <= last_day; ++day)
+            sum += weather[static_cast<std::size_t>((day - 1 + later) % days_of_year)].soil_water;
+    }
+    return sum / (years_of_mean * (last_day - first_day + 1));
+}
+
+const TreeEcology& ecology_of(std::string_view id, const char* path, const WorldLookup& lookup) {
+    if (const TreeEcology* ecology = lookup.tree(id)) return *ecology;
+    throw InvalidInput(path, "there is no kind of tree " + in_quotes(id));
+}
+
+/// Returns the coordinates of a place on the grid of a ground. Places beyond the world have the ground of its rim.
+Coordinate coordinate_of(const World& world, std::int32_t units) {
+    const double half = 0.5 * world.params.extent;
+    return coordinate_at(world.ground->grid, std::clamp(metres(units), -half, half));
+}
+
+/// Returns months half a year later.
+std::uint16_t southern(std::uint16_t months) {
+    return static_cast<std::uint16_t>(((months << 6U) | (months >> 6U)) & 0xFFFU);
+}
+
+/// Sets the species of a world, without their spread.
+void add_species(World& world, const WorldLookup& lookup) {
+    std::vector<Problem> problems;
+    world.species_ids = species_in(world.params.fungi.species, "fungi.species", problems);
+    std::vector<std::string> kinds;
+    kinds.reserve(world.stand.kinds.size());
+    for (const StandKind& kind : world.stand.kinds) kinds.push_back(kind.id);
+    world.species.reserve(world.species_ids.size());
+    for (const std::string& id : world.species_ids) {
+        std::optional<SpeciesRecord> record = lookup.species(id);
+        if (!record) {
+            report(problems, "fungi.species", "there is no species " + in_quotes(id));
+            continue;
+        }
+        FungusSpecies species;
+        species.ecology = std::move(record->ecology);
+        species.stream = stream_of(id);
+        species.months = is_southern(world.params) ? southern(record->months) : record->months;
+        species.kinds = kinds_of(species.ecology, kinds);
+        species.cap_radius = record->cap_radius;
+        world.species.push_back(std::move(species));
+    }
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+}
+
+/// What crowns do to the whole of a world: the share of the ground below them, and the light that they leave there.
+struct Canopy {
+    double closure = 0.0, light = 1.0;
+};
+
+Canopy canopy_of(const StandParams& stand) {
+    // Seedlings at half of all places close a wood within decades. Crowns of such a wood have five square metres of
+    // leaves above each one of the ground.
+    const double closure = std::min(1.0, stand.density / 0.5);
+    return {closure, exponential(-0.5 * 5.0 * closure)};
+}
+
+/// Returns how well a species could live in each cell of the grid on which species spread, 0..1, as far as is known
+/// before any tree is.
+std::vector<double> suitability_of(const World& world, const FungusSpecies& species,
+                                   const Grid& grid) {
+    const Canopy canopy = canopy_of(world.params.stand);
+    double hosts = 0.0;
+    for (std::size_t k = 0; k < world.stand.kinds.size(); ++k)
+        if ((species.kinds >> k & 1U) != 0U) hosts += 1.0;
+    const bool needs_trees = species.ecology.guild != Guild::grass;
+    std::vector<double> out;
+    out.reserve(grid.nodes());
+    for (int row = 0; row < grid.side; ++row)
+        for (int column = 0; column < grid.side; ++column) {
+            const WorldPoint at{static_cast<std::int32_t>(grid.place(column) * units_of_metre),
+                                static_cast<std::int32_t>(grid.place(row) * units_of_metre)};
+            Site site = world.site_at(at);
+            // There is more light at the rims of woods and in their gaps than in their mean.
+            const double open = site.light;
+            site.light = open * canopy.light;
+            const double below = suitability(species.ecology, site);
+            site.light = open * std::max(canopy.light, 0.5);
+            const double above = suitability(species.ecology, site);
+            out.push_back(needs_trees && hosts == 0.0 ? 0.0 : std::max(below, above));
+        }
+    return out;
+}
+
+void spread_species(World& world) {
+    const double closure = canopy_of(world.params.stand).closure;
+    const WindCover cover{.closure = closure, .crown_top = world.params.stand.height};
+    const SpreadGround ground = spread_ground(*world.ground, world.params.climate, cover);
+    world.establishment.reserve(world.species.size());
+    for (const FungusSpecies& species : world.species) {
+        const std::vector<double> suits = suitability_of(world, species, ground.grid);
+        const std::vector<Founder> founders =
+            founders_of(ground.grid, world.params.seed, species.stream, suits);
+        world.establishment.push_back(spread_of(ground, species.ecology.spores, suits, founders));
+    }
+}
+
+}  // namespace
+
+Stand stand_of(const WorldParams& params, const WorldLookup& lookup) {
+    Stand stand;
+    stand.params = params.stand;
+    stand.seed = params.seed;
+    std::vector<Problem> problems;
+    Weights kinds = kinds_in(params.stand.kinds, "stand.kinds", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    double sum = 0.0;
+    for (const auto& [id, weight] : kinds) sum += weight;
+    stand.kinds.reserve(kinds.size() + 1);
+    for (const auto& [id, weight] : kinds)
+        stand.kinds.push_back({id, weight / sum, ecology_of(id, "stand.kinds", lookup)});
+    if (params.stand.lone.empty()) return stand;
+    const auto same = [&](const StandKind& kind) { return kind.id == params.stand.lone.view(); };
+    const auto found = std::find_if(stand.kinds.begin(), stand.kinds.end(), same);
+    stand.lone = static_cast<std::uint8_t>(found - stand.kinds.begin());
+    if (found == stand.kinds.end())
+        stand.kinds.push_back(
+            {params.stand.lone.string(), 0.0, ecology_of(params.stand.lone, "stand.lone", lookup)});
+    return stand;
+}
+
+Site World::site_at(WorldPoint at) const {
+    const Coordinate x = coordinate_of(*this, at.x), y = coordinate_of(*this, at.y);
+    const double index = wetness_index_at(*ground, x, y);
+    return {.light = light_at(horizon_at(horizon, metres(at.x), metres(at.y)),
+                              sporeprint::place_at(*ground, x, y), sun),
+            .wetness = wetness_on(*ground, index, autumn_water),
+            .acidity = params.soil.acidity,
+            .index = index};
+}
+
+Place World::place_at(WorldPoint at) const {
+    return sporeprint::place_at(*ground, coordinate_of(*this, at.x), coordinate_of(*this, at.y));
+}
+
+double World::downwind() const {
+    // Winds come from a bearing, which turns from north to east; they blow to the opposite one.
+    return radians(270.0 - params.climate.wind_from_deg);
+}
+
+std::size_t World::bytes() const {
+    std::size_t sum = sizeof(World) + horizon.bytes() + key.size();
+    for (const Establishment& one : establishment) sum += one.bytes();
+    return sum;
+}
+
+std::string world_key(const WorldParams& params) {
+    std::string key = "world ";
+    canonical(params, key);
+    return key;
+}
+
+World world_of(const WorldParams& params, const WorldLookup& lookup,
+               std::shared_ptr<const Ground> ground) {
+    World world;
+    world.params = params;
+    world.stand = stand_of(params, lookup);
+    world.ground = std::move(ground);
+    world.horizon = horizon_of(world.ground->grid, world.ground->heights);
+    world.sun = sun_of(radians(params.climate.latitude_deg),
+                       is_southern(params) ? midsummer + half_a_year : midsummer);
+    world.autumn_water = autumn_water_of(params);
+    world.key = world_key(params);
+    add_species(world, lookup);
+    spread_species(world);
+    return world;
+}
+
+std::size_t Block::bytes() const {
+    return sizeof(Block) + trees.size() * sizeof(StandTree) + dead.size() * sizeof(DeadWood);
+}
+
+Block block_of(const World& world, CellIndex block) {
+    Block out;
+    out.trees = trees_of(
+        world.stand, [&](WorldPoint at) { return world.site_at(at); }, block);
+    const auto slope = [&](WorldPoint at) {
+        const Place place = world.place_at(at);
+        return FallSite{place.east, place.north};
+    };
+    out.dead = dead_wood_of(world.stand, out.trees, slope, world.downwind());
+    return out;
+}
+
+std::vector<CellIndex> blocks_of(const WorldBox& box) {
+    const auto first = [](double metres) {
+        return static_cast<std::int32_t>(std::floor(metres / block_side));
+    };
+    // A side that lies between two blocks belongs to the one that ends there.
+    const auto last = [](double metres) {
+        return static_cast<std::int32_t>(std::ceil(metres / block_side)) - 1;
+    };
+    std::vector<CellIndex> blocks;
+    for (std::int32_t y = first(box.south); y <= last(box.north); ++y)
+        for (std::int32_t x = first(box.west); x <= last(box.east); ++x) blocks.push_back({x, y});
+    return blocks;
+}
+
+bool contains(const WorldBox& box, WorldPoint at) {
+    const double x = metres(at.x), y = metres(at.y);
+    return x >= box.west && x < box.east && y >= box.south && y < box.north;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,113 @@
+// A world as its blocks are computed from: its parameters, its ground, its stand and its fungi.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/ecology.h"
+#include "core/world/dead_wood.h"
+#include "core/world/ground.h"
+#include "core/world/horizon.h"
+#include "core/world/mycelia.h"
+#include "core/world/spread.h"
+#include "core/world/stand.h"
+#include "core/world/weather.h"
+#include "core/world/world_params.h"
+
+namespace sporeprint {
+
+/// What a world needs to know of a species.
+struct SpeciesRecord {
+    Ecology ecology;
+    std::uint16_t months = 0;  ///< in which it fruits in the north: bit 0 is January
+    double cap_radius = 0.02;  ///< metres
+};
+
+/// The kinds of trees and the species that a world can have, by their ids; nullptr for those that are not known.
+struct WorldLookup {
+    std::function<const TreeEcology*(std::string_view id)> tree;
+    std::function<std::optional<SpeciesRecord>(std::string_view id)> species;
+};
+
+/// Returns the stand of a world.
+///
+/// throws  InvalidInput (path "stand.kinds" or "stand.lone") for a kind that is not known
+[[nodiscard]] Stand stand_of(const WorldParams& params, const WorldLookup& lookup);
+
+/// A world, ready to be looked at. About 3 MB with its ground, and 0.2 MB for each species.
+struct World {
+    WorldParams params;
+    Stand stand;
+    std::shared_ptr<const Ground> ground;
+    Horizon horizon;
+    SunDay sun;                 ///< of midsummer
+    double autumn_water = 0.0;  ///< mean of the soil's water in September and October, mm
+    std::vector<std::string> species_ids;
+    std::vector<FungusSpecies> species;
+    std::vector<Establishment> establishment;  ///< of each species
+    std::string key;                           ///< all parameters, for caches
+
+    /// Returns what a place has to give to what grows there, crowns not considered.
+    [[nodiscard]] Site site_at(WorldPoint at) const;
+    /// Returns the ground at a place; beyond the world it is that of its rim.
+    [[nodiscard]] Place place_at(WorldPoint at) const;
+    /// Returns the direction to which the wind blows most, radians from east to north.
+    [[nodiscard]] double downwind() const;
+    /// Returns the memory that it takes, its ground not counted.
+    [[nodiscard]] std::size_t bytes() const;
+};
+
+/// Returns the key of a world for caches.
+[[nodiscard]] std::string world_key(const WorldParams& params);
+
+/// Computes a world over its ground.
+///
+/// throws  InvalidInput as stand_of() does, or (path "fungi.species") for a species that is not known
+/// cost    50 ms, and 15 ms for each species
+[[nodiscard]] World world_of(const WorldParams& params, const WorldLookup& lookup,
+                             std::shared_ptr<const Ground> ground);
+
+/// What stands and lies in one block, of all times.
+struct Block {
+    std::vector<StandTree> trees;  ///< by ascending ids
+    std::vector<DeadWood> dead;    ///< likewise
+
+    /// Returns the memory that it takes.
+    [[nodiscard]] std::size_t bytes() const;
+};
+
+/// The mycelia of a block that live at some time of an epoch, by ascending ids.
+struct BlockMycelia {
+    std::vector<Genet> genets;
+
+    /// Returns the memory that it takes.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(*this) + genets.size() * sizeof(Genet);
+    }
+};
+
+/// The fruit bodies of a block that stand at some time of a year, by ascending ids.
+struct BlockSeason {
+    std::vector<FruitBody> bodies;
+
+    /// Returns the memory that it takes.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(*this) + bodies.size() * sizeof(FruitBody);
+    }
+};
+
+/// Computes a block of a world.
+///
+/// cost    about 15 ms
+[[nodiscard]] Block block_of(const World& world, CellIndex block);
+
+/// Returns the blocks that a rectangle is part of, by rows from the south.
+[[nodiscard]] std::vector<CellIndex> blocks_of(const WorldBox& box);
+
+/// Returns whether a place belongs to a rectangle: its west and south sides do, the others do not.
+[[nodiscard]] bool contains(const WorldBox& box, WorldPoint at);
+
+}  // namespace sporeprint
