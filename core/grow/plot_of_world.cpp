@@ -1,0 +1,68 @@
+#include "core/grow/plot_of_world.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/world/world_habitat.h"
+
+namespace sporeprint {
+
+namespace {
+
+std::int32_t units_at(double metres) {
+    return static_cast<std::int32_t>(std::floor(metres * units_of_metre));
+}
+
+/// Returns the crowns that shade a plot or the ground near it.
+std::vector<Crown> crowns_round(const WorldPlot& plot, const WorldBox& box, WorldTime time) {
+    const double reach = plot_margin + shade_reach;
+    const WorldBox wide{box.west - reach, box.south - reach, box.east + reach, box.north + reach};
+    std::vector<Crown> crowns;
+    for (const StandTree& tree : plot.around.trees)
+        if (tree.lives_at(time) && tree.born < time && contains(wide, tree.at))
+            crowns.push_back(crown_of(*plot.world, tree, time));
+    return crowns;
+}
+
+double soil_water_at(const WorldParams& params, WorldTime time) {
+    const WeatherYear weather =
+        weather_of(params.climate, params.seed, static_cast<int>(time / ticks_of_year));
+    return weather[static_cast<std::size_t>(day_of_year(time) - 1)].soil_water;
+}
+
+}  // namespace
+
+std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> world,
+                                               const PlotPlace& place, WorldTime time,
+                                               const ExecutionContext& execution) {
+    auto plot = std::make_unique<WorldPlot>();
+    plot->world = std::move(world);
+    const World& of = *plot->world;
+    const double half = 0.5 * place.size;
+    const WorldBox box{place.x - half, place.y - half, place.x + half, place.y + half};
+    plot->around = blocks_round(of, box, execution);
+    plot->bodies = bodies_in(of, box, time, execution);
+    plot->canopy.emplace(crowns_round(*plot, box, time));
+    PlotContent& content = plot->content;
+    content.ground = of.ground.get();
+    content.seed = of.params.seed;
+    content.centre = {units_at(place.x), units_at(place.y)};
+    content.size = place.size;
+    content.time = time;
+    for (const StandKind& kind : of.stand.kinds) content.kinds.push_back(kind.id);
+    content.species = of.species_ids;
+    content.trees = plot->around.trees;
+    content.dead_wood = plot->around.dead;
+    content.bodies = plot->bodies;
+    content.soil_water = soil_water_at(of.params, time);
+    content.acidity = of.params.soil.acidity;
+    content.micro = of.params.terrain.micro;
+    content.wind_to = of.downwind();
+    content.light = [&of, &canopy = *plot->canopy](double x, double y) {
+        const WorldPoint at{units_at(x), units_at(y)};
+        return of.site_at(at).light * canopy.at(x, y, of.place_at(at).height, 1.0);
+    };
+    return plot;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,41 @@
+// What a world has on a plot: its trees, its dead wood and its fruit bodies, ready to be shown.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/grow/plot.h"
+#include "core/grow/world_parts.h"
+#include "core/world/canopy_light.h"
+
+namespace sporeprint {
+
+/// The place of a plot: its middle, from the centre of the world, and the length of its sides, metres.
+struct PlotPlace {
+    double x = 0.0, y = 0.0, size = 10.0;
+};
+
+/// A plot of a world. Its content refers to the other members, so that it cannot be copied.
+struct WorldPlot {
+    std::shared_ptr<const World> world;
+    Block around;                   ///< of all blocks round the plot, of all times
+    std::vector<FruitBody> bodies;  ///< that stand on it
+    std::optional<CanopyLight> canopy;
+    PlotContent content;
+
+    WorldPlot() = default;
+    WorldPlot(const WorldPlot&) = delete;
+    WorldPlot& operator=(const WorldPlot&) = delete;
+    ~WorldPlot() = default;
+};
+
+/// Returns what a world has on a plot at a moment.
+///
+/// time  from year 0 to last_year
+/// cost  1 s where nothing is known of the surroundings, 10 ms where everything is
+[[nodiscard]] std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> world,
+                                                             const PlotPlace& place, WorldTime time,
+                                                             const ExecutionContext& execution);
+
+}  // namespace sporeprint

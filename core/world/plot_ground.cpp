@@ -1,0 +1,215 @@
+#include "core/world/plot_ground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/math/elementary.h"
+#include "core/math/noise.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/mesh/tangents.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// A wave of the floor: its length in metres, and its share of the amplitude.
+struct Wave {
+    double length, share;
+};
+constexpr std::array<Wave, 3> waves{{{4.0, 1.0}, {1.7, 0.5}, {0.62, 0.22}}};
+
+/// Deviation of gradient noise.
+constexpr double noise_deviation = 0.35;
+
+/// Returns a coordinate as a multiple of 2^-20 m.
+double rounded(double metres) { return std::floor(metres * 1048576.0 + 0.5) / 1048576.0; }
+
+constexpr glm::vec3 tint_of_wall(0.42F, 0.36F, 0.31F), tint_of_bottom(0.25F, 0.22F, 0.2F);
+
+/// Depths of the rows of vertices of a wall, metres; the last one is the bottom.
+constexpr double first_depth = 0.1;
+
+}  // namespace
+
+FloorHeights::FloorHeights(const Ground& ground, std::uint32_t seed, double micro,
+                           std::span<const TreeFoot> feet)
+    : ground_(&ground), seed_(seed), micro_(micro), feet_(feet.begin(), feet.end()) {}
+
+std::vector<double> FloorHeights::at(std::span<const double> x, std::span<const double> y) const {
+    std::vector<Coordinate> columns;
+    columns.reserve(x.size());
+    for (const double metres : x) columns.push_back(coordinate_at(ground_->grid, metres));
+    std::array<std::uint32_t, waves.size()> seeds{};
+    Random random(seed_, purposes::floor_noise);
+    for (std::uint32_t& seed : seeds) seed = random.bits();
+    std::vector<double> heights;
+    heights.reserve(x.size() * y.size());
+    std::vector<float> u(x.size()), v(x.size()), noise(x.size());
+    std::vector<double> row_of(x.size());
+    for (const double north : y) {
+        const Coordinate row = coordinate_at(ground_->grid, north);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            row_of[i] = place_at(*ground_, columns[i], row).height;
+        for (std::size_t k = 0; k < waves.size() && micro_ > 0.0; ++k) {
+            // Octaves whose zeros coincide would make a lattice visible.
+            const double shift = 0.37 * static_cast<double>(k + 1);
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                u[i] = static_cast<float>(x[i] / waves[k].length + shift);
+                v[i] = static_cast<float>(north / waves[k].length + shift);
+            }
+            gradient_noise(u, v, seeds[k], noise);
+            const double factor = micro_ * waves[k].share / (2.0 * noise_deviation);
+            for (std::size_t i = 0; i < x.size(); ++i)
+                row_of[i] += factor * static_cast<double>(noise[i]);
+        }
+        for (const TreeFoot& foot : feet_) {
+            const double dy = north - foot.y;
+            if (std::abs(dy) >= most_flare_reach) continue;
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                const double dx = x[i] - foot.x, square = dx * dx + dy * dy;
+                if (square >= most_flare_reach * most_flare_reach) continue;
+                row_of[i] +=
+                    0.25 * foot.diameter * exponential(-std::sqrt(square) / (1.5 * foot.diameter));
+            }
+        }
+        heights.insert(heights.end(), row_of.begin(), row_of.end());
+    }
+    return heights;
+}
+
+double FloorHeights::at(double x, double y) const {
+    return at(std::span<const double>(&x, 1), std::span<const double>(&y, 1)).front();
+}
+
+double slab_height(double height) { return std::floor(height / slab_step + 0.5) * slab_step; }
+
+Mesh slab_mesh(const SlabParams& params, const FloorHeights& floor) {
+    const auto nodes = static_cast<std::size_t>(params.nodes);
+    const double last = params.nodes - 1;
+    const double width = params.box.east - params.box.west,
+                 length = params.box.north - params.box.south;
+    // One more place on each side, for the normals of the border.
+    std::vector<double> x, y;
+    x.reserve(nodes + 2);
+    y.reserve(nodes + 2);
+    for (int i = -1; i <= params.nodes; ++i) {
+        const double t = i / last;
+        // Rounded, so that a place has the same coordinates in neighbouring slabs.
+        x.push_back(rounded((1.0 - t) * params.box.west + t * params.box.east));
+        y.push_back(rounded((1.0 - t) * params.box.north + t * params.box.south));
+    }
+    const std::vector<double> heights = floor.at(x, y);
+    const auto height = [&](std::size_t column, std::size_t row) {
+        return heights[row * (nodes + 2) + column];
+    };
+    const double step_x = width / last, step_z = length / last;
+    const double texels = params.texture_side;
+    const auto texture_at = [&](double t) { return (0.5 + t * (texels - 1.0)) / texels; };
+    Mesh mesh;
+    mesh.positions.reserve(nodes * nodes);
+    mesh.normals.reserve(nodes * nodes);
+    mesh.tangents.reserve(nodes * nodes);
+    mesh.texture_coordinates.reserve(nodes * nodes);
+    double lowest = 1e9;
+    for (std::size_t row = 0; row < nodes; ++row)
+        for (std::size_t column = 0; column < nodes; ++column) {
+            const double s = static_cast<double>(column) / last,
+                         t = static_cast<double>(row) / last;
+            const double up = slab_height(height(column + 1, row + 1)) - params.height;
+            lowest = std::min(lowest, up);
+            const double east =
+                (height(column + 2, row + 1) - height(column, row + 1)) / (2.0 * step_x);
+            const double south =
+                (height(column + 1, row + 2) - height(column + 1, row)) / (2.0 * step_z);
+            const glm::dvec3 normal = glm::normalize(glm::dvec3(-east, 1.0, -south));
+            const glm::dvec3 tangent = glm::normalize(glm::dvec3(1.0, east, 0.0));
+            mesh.positions.emplace_back((s - 0.5) * width, up, (t - 0.5) * length);
+            mesh.normals.emplace_back(normal);
+            mesh.tangents.emplace_back(glm::vec3(tangent), 1.0F);
+            mesh.texture_coordinates.emplace_back(texture_at(s), texture_at(t));
+        }
+    const auto index = [&](std::size_t column, std::size_t row) {
+        return static_cast<std::uint32_t>(row * nodes + column);
+    };
+    mesh.indices.reserve(6 * (nodes - 1) * (nodes - 1));
+    for (std::size_t row = 0; row + 1 < nodes; ++row)
+        for (std::size_t column = 0; column + 1 < nodes; ++column) {
+            const std::uint32_t a = index(column, row), b = index(column + 1, row),
+                                c = index(column, row + 1), d = index(column + 1, row + 1);
+            // Diagonals alternate, so that ridges along either of them are as sharp.
+            if ((row + column) % 2 == 0)
+                mesh.indices.insert(mesh.indices.end(), {a, c, d, a, d, b});
+            else
+                mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
+        }
+    mesh.tints.assign(mesh.positions.size(), glm::vec3(1.0F));
+
+    const auto bottom = static_cast<float>(slab_height(lowest - params.depth));
+    Mesh below;
+    const auto add = [&](const glm::vec3& at, const glm::vec3& normal, const glm::vec2& texture,
+                         const glm::vec3& tint) {
+        below.positions.push_back(at);
+        below.normals.push_back(normal);
+        below.texture_coordinates.push_back(texture);
+        below.tints.push_back(tint);
+        return static_cast<std::uint32_t>(below.positions.size() - 1);
+    };
+    // Sides in the order north, west, south, east: counter-clockwise from above.
+    const auto border = [&](std::size_t side, std::size_t i) {
+        const std::size_t end = nodes - 1;
+        switch (side) {
+            case 0:
+                return index(end - i, 0);
+            case 1:
+                return index(0, i);
+            case 2:
+                return index(i, end);
+            default:
+                return index(end, end - i);
+        }
+    };
+    constexpr std::array<glm::vec3, 4> outwards{
+        glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(-1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, 1.0F),
+        glm::vec3(1.0F, 0.0F, 0.0F)};
+    const std::uint32_t middle =
+        add({0.0F, bottom, 0.0F}, {0.0F, -1.0F, 0.0F}, {0.5F, 0.5F}, tint_of_bottom);
+    std::vector<std::uint32_t> rim;
+    rim.reserve(4 * (nodes - 1));
+    for (std::size_t side = 0; side < 4; ++side) {
+        const auto first = static_cast<std::uint32_t>(below.positions.size());
+        const glm::vec2 inwards(-outwards[side].x, -outwards[side].z);
+        for (std::size_t i = 0; i < nodes; ++i) {
+            const std::uint32_t top = border(side, i);
+            const glm::vec3 at = mesh.positions[top];
+            const glm::vec2 texture = mesh.texture_coordinates[top];
+            for (const float depth : {0.0F, static_cast<float>(first_depth), at.y - bottom}) {
+                // The image goes on as if the floor were folded down.
+                const glm::vec2 shown = texture + inwards * (depth / static_cast<float>(width));
+                add({at.x, at.y - depth, at.z}, outwards[side],
+                    {std::clamp(shown.x, 0.0F, 1.0F), std::clamp(shown.y, 0.0F, 1.0F)},
+                    depth > 0.0F ? tint_of_wall : 0.6F * glm::vec3(1.0F));
+            }
+            below.positions.back().y = bottom;
+        }
+        for (std::uint32_t i = 0; i + 1 < nodes; ++i)
+            for (std::uint32_t k = 0; k < 2; ++k) {
+                const std::uint32_t a = first + 3 * i + k, b = a + 3, c = a + 1, d = b + 1;
+                below.indices.insert(below.indices.end(), {a, c, d, a, d, b});
+            }
+        for (std::uint32_t i = 0; i + 1 < nodes; ++i) {
+            const std::uint32_t of_wall = first + 3 * i + 2;
+            rim.push_back(add(below.positions[of_wall], {0.0F, -1.0F, 0.0F},
+                              below.texture_coordinates[of_wall], tint_of_bottom));
+        }
+    }
+    for (std::size_t i = 0; i < rim.size(); ++i)
+        below.indices.insert(below.indices.end(), {middle, rim[(i + 1) % rim.size()], rim[i]});
+    add_tangents(below);
+    append(mesh, below);
+    return mesh;
+}
+
+}  // namespace sporeprint
