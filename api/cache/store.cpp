@@ -3,8 +3,9 @@
 #include <utility>
 
 #include "core/atlas/atlas.h"
+#include "core/grow/tree.h"
 #include "core/silhouette/morph_set.h"
-#include "core/world/ground.h"
+#include "core/world/world.h"
 
 namespace sporeprint::api {
 
@@ -19,6 +20,16 @@ std::size_t weight_of(const Painted& painted) {
 
 /// Bred species are needed as long as somebody looks at them: about 150 of the atlas.
 constexpr std::size_t offspring_bytes = std::size_t{16} << 20U;
+
+std::size_t weight_of(const BlockPart& part) {
+    if (const SharedTree* tree = std::get_if<SharedTree>(&part))
+        // Position, normal, tangent, texture coordinates and weights of wind of each vertex.
+        return (*tree)->vertices() * 64 + (*tree)->triangles() * 12;
+    if (const SharedBlock* block = std::get_if<SharedBlock>(&part)) return (*block)->bytes();
+    if (const SharedMycelia* mycelia = std::get_if<SharedMycelia>(&part))
+        return (*mycelia)->bytes();
+    return std::get<SharedSeason>(part)->bytes();
+}
 
 /// The values of a species take about twice the bytes of its text.
 std::size_t weight_of(const Atlas& bred) { return 3 * bred.entries().front().json.size(); }
@@ -36,7 +47,7 @@ std::shared_ptr<const T> ask(ComputingCache<Value>& cache, const std::string& ke
     Value value = cache.get_or_compute(
         key, [&] { return Value(make()); }, stop, requested.hit);
     requested.stored = cache.cache().fits(cache.cache().weight(key, value));
-    if constexpr (std::is_same_v<Value, Painted>)
+    if constexpr (requires { std::get<std::shared_ptr<const T>>(value); })
         return std::get<std::shared_ptr<const T>>(value);
     else
         return value;
@@ -55,15 +66,19 @@ Store::Store(const ServiceOptions& options)
       morphs(options.morph_cache_bytes,
              [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }),
       offspring(offspring_bytes, [](const Bred& bred) { return weight_of(*bred); }),
-      grounds(options.world_cache_bytes,
-              [](const SharedGround& ground) { return ground->bytes(); }) {
+      grounds(options.world_cache_bytes / 4,
+              [](const SharedGround& ground) { return ground->bytes(); }),
+      worlds(options.world_cache_bytes / 4,
+             [](const SharedWorld& world) { return world->bytes(); }),
+      blocks(options.world_cache_bytes / 2, [](const BlockPart& part) { return weight_of(part); }) {
     if (!options.store.empty())
         directory.emplace(options.store, options.store_bytes, options.store_event);
 }
 
 void Store::measure() {
     const CacheStats of_responses = responses.stats(), of_images = images.cache().stats(),
-                     of_morphs = morphs.cache().stats(), of_worlds = grounds.cache().stats();
+                     of_morphs = morphs.cache().stats(), of_worlds = grounds.cache().stats(),
+                     of_blocks = blocks.cache().stats();
     counters.glb_cache_bytes = of_responses.bytes;
     counters.glb_cache_entries = of_responses.entries;
     counters.glb_evictions = of_responses.evictions;
@@ -76,6 +91,9 @@ void Store::measure() {
     counters.world_cache_bytes = of_worlds.bytes;
     counters.world_cache_entries = of_worlds.entries;
     counters.world_evictions = of_worlds.evictions;
+    counters.block_cache_bytes = of_blocks.bytes;
+    counters.block_cache_entries = of_blocks.entries;
+    counters.block_evictions = of_blocks.evictions;
     if (!directory) return;
     const DirectoryStats of_directory = directory->stats();
     counters.store_hits = of_directory.hits;
@@ -170,6 +188,37 @@ JobContext::JobContext(Store& store, std::stop_token stop, const Observer& obser
         note(worlds_, cache_member("sporeprint-worlds", requested.hit, requested.stored));
         return ground;
     };
+    execution_.caches.worlds = [this](const std::string& key,
+                                      const std::function<SharedWorld()>& make) {
+        Requested requested;
+        return ask<World>(store_.worlds, key, make, execution_.stop, requested);
+    };
+    execution_.caches.blocks = [this](const std::string& key,
+                                      const std::function<SharedBlock()>& make) {
+        return part_of<Block>(key, make);
+    };
+    execution_.caches.mycelia = [this](const std::string& key,
+                                       const std::function<SharedMycelia()>& make) {
+        return part_of<BlockMycelia>(key, make);
+    };
+    execution_.caches.seasons = [this](const std::string& key,
+                                       const std::function<SharedSeason()>& make) {
+        return part_of<BlockSeason>(key, make);
+    };
+    execution_.caches.trees = [this](const std::string& key,
+                                     const std::function<SharedTree()>& make) {
+        return part_of<TreeMeshes>(key, make);
+    };
+}
+
+template <class Part>
+std::shared_ptr<const Part> JobContext::part_of(
+    const std::string& key, const std::function<std::shared_ptr<const Part>()>& make) {
+    Requested requested;
+    auto part = ask<Part>(store_.blocks, key, make, execution_.stop, requested);
+    count(store_.counters.block_hits, store_.counters.block_misses, requested.hit);
+    note(blocks_, cache_member("sporeprint-blocks", requested.hit, requested.stored));
+    return part;
 }
 
 void JobContext::note(std::string& said, std::string member) {
@@ -189,7 +238,7 @@ void JobContext::count_known_morphs() {
 std::string JobContext::cache_status() const {
     const std::lock_guard lock(mutex_);
     std::string members;
-    for (const std::string* one : {&worlds_, &morphs_, &images_}) {
+    for (const std::string* one : {&worlds_, &blocks_, &morphs_, &images_}) {
         if (one->empty()) continue;
         if (!members.empty()) members += ", ";
         members += *one;

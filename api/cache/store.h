@@ -27,6 +27,14 @@ using Painting = std::shared_ptr<const RawImages>;
 using Morph = std::shared_ptr<const MorphSet>;  ///< the correspondence of a set of species
 using Bred = std::shared_ptr<const Atlas>;      ///< one bred species
 using SharedGround = std::shared_ptr<const Ground>;
+using SharedWorld = std::shared_ptr<const World>;
+using SharedBlock = std::shared_ptr<const Block>;
+using SharedMycelia = std::shared_ptr<const BlockMycelia>;
+using SharedSeason = std::shared_ptr<const BlockSeason>;
+using SharedTree = std::shared_ptr<const TreeMeshes>;
+
+/// The values of the cache of blocks of worlds, all within one budget.
+using BlockPart = std::variant<SharedBlock, SharedMycelia, SharedSeason, SharedTree>;
 
 /// The values of the image cache: encoded files, and the paintings from which images of mixes are
 /// blended. Both share one budget.
@@ -45,7 +53,9 @@ struct Store {
     ComputingCache<Painted> images;
     ComputingCache<Morph> morphs;
     ComputingCache<Bred> offspring;
-    ComputingCache<SharedGround> grounds;
+    ComputingCache<SharedGround> grounds;     ///< a quarter of the bytes for worlds
+    ComputingCache<SharedWorld> worlds;       ///< likewise
+    ComputingCache<BlockPart> blocks;         ///< the rest; also the meshes of trees
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
@@ -95,11 +105,15 @@ class JobContext {
 
   private:
     void note(std::string& said, std::string member);
+    /// Returns a part of a block of a world, from the cache of blocks or computed.
+    template <class Part>
+    [[nodiscard]] std::shared_ptr<const Part> part_of(
+        const std::string& key, const std::function<std::shared_ptr<const Part>()>& make);
 
     Store& store_;
     ExecutionContext execution_;
     mutable std::mutex mutex_;
-    std::string morphs_, images_, worlds_;  ///< guarded by mutex_
+    std::string morphs_, images_, worlds_, blocks_;  ///< guarded by mutex_
 };
 
 }  // namespace sporeprint::api

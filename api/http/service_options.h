@@ -40,10 +40,12 @@ struct Counters {
     std::atomic<std::uint64_t> painting_hits{0}, painting_misses{0};  ///< cached beside the images
     std::atomic<std::uint64_t> morph_hits{0}, morph_misses{0};
     std::atomic<std::uint64_t> ground_hits{0}, ground_misses{0};
+    std::atomic<std::uint64_t> block_hits{0}, block_misses{0};
     std::atomic<std::uint64_t> glb_cache_bytes{0}, glb_cache_entries{0}, glb_evictions{0};
     std::atomic<std::uint64_t> image_cache_bytes{0}, image_cache_entries{0}, image_evictions{0};
     std::atomic<std::uint64_t> morph_cache_bytes{0}, morph_cache_entries{0}, morph_evictions{0};
     std::atomic<std::uint64_t> world_cache_bytes{0}, world_cache_entries{0}, world_evictions{0};
+    std::atomic<std::uint64_t> block_cache_bytes{0}, block_cache_entries{0}, block_evictions{0};
     std::atomic<std::uint64_t> store_hits{0}, store_misses{0}, store_damaged{0}, store_unwritten{0};
     std::atomic<std::uint64_t> store_bytes{0}, store_entries{0}, store_evictions{0};
 };

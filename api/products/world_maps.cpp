@@ -1,9 +1,7 @@
 #include "api/products/world_maps.h"
 
 #include <array>
-#include <charconv>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,6 +9,7 @@
 
 #include "api/http/schemas.h"
 #include "api/products/resource.h"
+#include "api/products/world_parts.h"
 #include "api/products/worlds.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -26,11 +25,6 @@ namespace {
 
 /// The map whose file has the colours of Terrarium in place of grey; it shows heights.
 constexpr const char* terrarium = "terrarium";
-
-/// Returns the cost of computing the ground of a world.
-Cost cost_of_ground(const WorldParams& params) {
-    return {.base = 40'000 + static_cast<std::uint64_t>(170'000.0 * params.terrain.erosion)};
-}
 
 /// The query of a map.
 struct MapParams {
@@ -105,100 +99,36 @@ Cost cost_of_map(const MapRequest& request, MapFile file) {
     return {.base = 200 + places * nanoseconds / 1000};
 }
 
-/// Reads a whole number with a letter before it, such as y80, and removes it from a text.
-std::optional<int> take_number(std::string_view& text, char letter, int least, int most) {
-    if (!text.starts_with(letter)) return std::nullopt;
-    int number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data() + 1, end, number);
-    if (error != std::errc() || number < least || number > most || text[1] == '-' ||
-        (text[1] == '0' && rest > text.data() + 2))
-        return std::nullopt;
-    text = {rest, static_cast<std::size_t>(end - rest)};
-    return number;
-}
-
-/// Reads the {time} of a URL into the year and the day of a request.
-void read_time(std::string_view text, MapRequest& request, ValidationErrors& errors) {
-    std::string_view rest = text;
-    const std::optional<int> year = take_number(rest, 'y', 0, last_year);
-    const std::optional<int> day =
-        rest.empty() ? std::optional(0) : take_number(rest, 'd', 1, days_of_year);
-    if (!year || !day || !rest.empty())
-        return errors.add(400, "time",
-                          in_quotes(text) + " is no time; allowed are years from y0 to y" +
-                              std::to_string(last_year) + ", and their days from y0d1 to y" +
-                              std::to_string(last_year) + 'd' + std::to_string(days_of_year));
-    if (!has_days(request.map)) return;
-    if (*day == 0)
-        errors.add(400, "time",
-                   std::string(name(request.map)) + " changes from day to day; add one, such as " +
-                       std::string(text) + "d270");
-    request.year = *year;
-    request.day = *day;
-}
-
 void read_map_name(std::string_view text, MapRequest& request, ValidationErrors& errors) {
     request.is_terrarium = text == terrarium;
     if (request.is_terrarium) return;
-    std::vector<std::string> names = {terrarium};
-    for (int i = 0; const char* one = name(static_cast<WorldMap>(i)); ++i) {
-        names.emplace_back(one);
+    for (int i = 0; const char* one = name(static_cast<WorldMap>(i)); ++i)
         if (text == one) {
             request.map = static_cast<WorldMap>(i);
             return;
         }
-    }
-    const std::string_view meant = closest(text, names);
+    std::vector<std::string> names;
+    const Value known = map_names(MapFile::png);
+    for (const Value& one : known.items()) names.push_back(one.as_string());
     std::string list;
     for (const std::string& one : names) (list += list.empty() ? "" : ", ") += one;
+    const std::string_view meant = closest(text, names);
     errors.add(
         404, "map",
         "there is no map " + in_quotes(text) +
             (meant.empty() ? "; there are " + list : "; did you mean " + in_quotes(meant) + '?'));
 }
 
-/// Returns the four numbers of a bbox, or nothing if it is not of that form.
-std::optional<WorldBox> numbers_of(std::string_view text) {
-    std::array<double, 4> numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::size_t comma = i < 3 ? text.find(',') : text.size();
-        if (comma == std::string_view::npos ||
-            !read_number(std::string(text.substr(0, comma)), numbers[i]))
-            return std::nullopt;
-        numbers[i] += 0.0;  // -0 is 0
-        text.remove_prefix(std::min(text.size(), comma + 1));
-    }
-    return WorldBox{numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
-std::string text_of(const WorldBox& box) {
-    return number_text(box.west) + ',' + number_text(box.south) + ',' + number_text(box.east) +
-           ',' + number_text(box.north);
-}
-
-WorldBox read_box(std::string_view text, const WorldBox& extent, ValidationErrors& errors) {
-    if (text.empty()) return extent;
-    const std::optional<WorldBox> box = numbers_of(text);
-    if (!box) {
-        errors.add(400, "bbox",
-                   in_quotes(text) +
-                       " is not four numbers: west, south, east and north in metres "
-                       "from the centre, as in -100,-50,100,50");
-        return extent;
-    }
-    if (box->east - box->west < 1.0 || box->north - box->south < 1.0)
-        errors.add(400, "bbox",
-                   in_quotes(text) +
-                       " is empty or less than a metre wide; the order is west, "
-                       "south, east, north");
-    else if (box->west < extent.west || box->south < extent.south || box->east > extent.east ||
-             box->north > extent.north)
-        errors.add(400, "bbox",
-                   in_quotes(text) + " is partly outside the world, which is " + text_of(extent));
-    else
-        return *box;
-    return extent;
+/// Reads the {time} of a URL into the year and the day of a request.
+void read_time(std::string_view text, MapRequest& request, ValidationErrors& errors) {
+    const WorldTimeRead time = read_world_time(text, errors);
+    if (!has_days(request.map)) return;
+    if (time.is_valid && time.day == 0)
+        errors.add(400, "time",
+                   std::string(name(request.map)) + " changes from day to day; add one, such as " +
+                       std::string(text) + "d270");
+    request.year = time.year;
+    request.day = time.day;
 }
 
 MapRequest read_map(const RouteCall& call, ValidationErrors& errors) {
@@ -210,7 +140,8 @@ MapRequest read_map(const RouteCall& call, ValidationErrors& errors) {
     std::vector<Problem> problems;
     read_query(query_of_world(call.target, errors), params, problems);
     errors.add(400, problems);
-    request.box = read_box(params.bbox, extent_of(request.world.spec.params), errors);
+    const WorldBox extent = extent_of(request.world.spec.params);
+    request.box = read_box(params.bbox, extent, extent, errors);
     request.size = params.size;
     return request;
 }
@@ -220,28 +151,7 @@ std::string query_of(const MapRequest& request) {
     MapParams params{request.size, {}};
     if (request.box != extent_of(request.world.spec.params))
         params.bbox = Text<120>(text_of(request.box));
-    std::string query = query_text(params);
-    return query;
-}
-
-/// Returns the ground of a world, from its cache or computed.
-SharedGround ground_of_world(const WorldParams& params, const Caches& caches) {
-    return caches.grounds(ground_key(params),
-                          [&] { return std::make_shared<const Ground>(ground_of(params)); });
-}
-
-/// Returns the job that computes the ground of a world, if it is not cached.
-std::optional<Job> ground_job(Store& store, const WorldParams& params) {
-    const std::string key = ground_key(params);
-    if (store.grounds.cache().find(key)) return std::nullopt;
-    auto run = [&store, params](const std::stop_token& stop, const Observer& observer,
-                                const Parallel& parallel) {
-        observer(Step::resolve);
-        JobContext job(store, stop, observer, parallel);
-        static_cast<void>(ground_of_world(params, job.execution().caches));
-        return Response();
-    };
-    return Job{key, cost_of_ground(params), std::move(run), true};
+    return query_text(params);
 }
 
 double soil_water_on(const MapRequest& request) {
@@ -263,13 +173,12 @@ ImageTexts texts_of(const MapRequest& request, const MapRange& range, const std:
     ImageTexts texts = {{"Title", request.name()},
                         {"Source", world},
                         {"Software", "Sporeprint"},
-                        {"Bounding box", text_of(request.box)}};
+                        {"Bounding box", text_of(request.box)},
+                        {"Formula", formula_of(request)}};
     if (request.is_terrarium) {
         texts.emplace_back("Unit", "m");
-        texts.emplace_back("Formula", formula_of(request));
         return texts;
     }
-    texts.emplace_back("Formula", formula_of(request));
     texts.emplace_back("From", number_text(range.from));
     texts.emplace_back("To", number_text(range.to));
     if (*range.unit) texts.emplace_back("Unit", range.unit);

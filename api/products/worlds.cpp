@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "api/http/schemas.h"
+#include "api/products/mix.h"
 #include "api/products/presets.h"
 #include "api/products/resource.h"
 #include "api/products/world_maps.h"
+#include "api/products/world_plots.h"
+#include "api/products/world_seasons.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/schema.h"
@@ -44,6 +47,34 @@ Pairs pairs_of(std::string_view text, ValidationErrors& errors) {
     return pairs;
 }
 
+void replace_all(std::string& text, std::string_view old, std::string_view by) {
+    for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += by.size())
+        text.replace(at, old.size(), by);
+}
+
+/// Reports kinds of trees that the atlas does not have.
+void check_kinds(const StandParams& stand, const Atlas& atlas, std::vector<Problem>& problems) {
+    std::vector<std::string> ids;
+    for (const TreePreset& tree : atlas.trees()) ids.push_back(tree.id.string());
+    const auto check = [&](std::string_view id, const char* name) {
+        if (atlas.find_tree(id)) return;
+        const std::string_view meant = closest(id, ids);
+        report(problems, name,
+               "unknown tree " + in_quotes(id) +
+                   (meant.empty() ? "; those of /v1/trees are known"
+                                  : "; did you mean " + in_quotes(meant) + '?'));
+    };
+    for (const auto& [id, weight] : kinds_in(stand.kinds, "stand.kinds", problems))
+        check(id, "stand.kinds");
+    if (!stand.lone.empty()) check(stand.lone, "stand.lone");
+}
+
+/// Reports species that the atlas does not have.
+void check_species(const FungiParams& fungi, const Atlas& atlas, std::vector<Problem>& problems) {
+    for (const std::string& id : species_in(fungi.species, "fungi.species", problems))
+        if (!atlas.find(id)) report(problems, "fungi.species", unknown_species(id, atlas));
+}
+
 /// The query of a world's weather.
 struct YearParams {
     int year = 0;
@@ -69,6 +100,8 @@ Value describe_world(const Context& context, const WorldSpec& spec, const std::s
         .set("links", Value::object()
                           .set("self", context.responses.link(folder + ".json"))
                           .set("weather", context.responses.link(folder + "/weather.json"))
+                          .set("season", context.responses.link(folder + "/season.json"))
+                          .set("plot", context.responses.link(folder + "/y80d270/plot.glb"))
                           .set("schema", context.responses.link("/v1/worlds/schema")));
 }
 
@@ -176,6 +209,7 @@ Value world_list(const Atlas& atlas) {
                       .set("links", Value::object()
                                         .set("self", folder + ".json")
                                         .set("weather", folder + "/weather.json")
+                                        .set("plot", folder + "/y80d270/plot.glb")
                                         .set("schema", "/v1/worlds/schema")));
     }
     return Value::object().set(Worlds::all, std::move(list));
@@ -250,6 +284,37 @@ constexpr Route routes[] = {
      .query_schema = map_query_schema,
      .plan = plan_map<MapFile::json>,
      .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/season.json",
+     .id = "get_season",
+     .summary = "How many fruit bodies of each species stand on each day of a year, beside the "
+                "weather.",
+     .media_type = json,
+     .response_schema = "world_season",
+     .query_schema = season_query_schema,
+     .plan = plan_season,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/plot.glb",
+     .id = "get_plot",
+     .summary = "A piece of a world on a day: ground, trees, dead wood, litter and fungi.",
+     .media_type = "model/gltf-binary",
+     .query_schema = plot_query_schema,
+     .plan = plan_plot<PlotFile::glb>,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/plot.json",
+     .id = "describe_plot",
+     .summary = "What stands, lies and grows on it: places, sizes, ages, and the model of each "
+                "fruit body.",
+     .media_type = json,
+     .response_schema = "world_plot",
+     .query_schema = plot_query_schema,
+     .plan = plan_plot<PlotFile::json>,
+     .has_version_in_path = true},
 };
 
 void add_links(Value& links, const Atlas&) {
@@ -304,6 +369,8 @@ void add_schemas(Value& schemas, const Atlas&) {
                                            {"maps", map_of(text)},
                                            {"links", map_of(text)}}))
         .set("world_map", map_schema())
+        .set("world_season", season_schema())
+        .set("world_plot", plot_schema())
         .set("weather", objects({{"world", text},
                                  {"year", whole},
                                  {"days", objects({{"rain_mm", days},
@@ -327,12 +394,18 @@ WorldRequest read_world(std::string_view text, const Atlas& atlas, ValidationErr
     }
     const std::string_view id = text.substr(0, text.find(','));
     const WorldPreset& preset = preset_of<Worlds>(atlas, id, "world", errors);
-    request.spec = {preset.id.string(), params_of(preset)};
+    request.spec = {preset.id.string(), params_of(preset, atlas)};
     Pairs rest;
     request.version = take_version(pairs_of(text.substr(id.size()), errors), rest, errors);
     std::vector<Problem> problems;
     read_query(rest, request.spec.params, problems);
+    if (problems.empty()) check_kinds(request.spec.params.stand, atlas, problems);
+    if (problems.empty()) check_species(request.spec.params.fungi, atlas, problems);
     errors.add(400, problems);
+    StandParams& stand = request.spec.params.stand;
+    stand.kinds = Text<256>(canonical_kinds(stand.kinds));
+    FungiParams& fungi = request.spec.params.fungi;
+    fungi.species = Text<620>(canonical_species(fungi.species));
     without_negative_zero(request.spec.params);
     return request;
 }
@@ -340,6 +413,9 @@ WorldRequest read_world(std::string_view text, const Atlas& atlas, ValidationErr
 std::string world_text(const WorldSpec& spec, const Atlas& atlas, std::string_view version) {
     std::string query = query_text(spec.params, own_params<Worlds>(atlas, spec.preset));
     std::replace(query.begin(), query.end(), '&', ',');
+    // Signs of the list of kinds, which a path may have as they are.
+    replace_all(query, "%3A", ":");
+    replace_all(query, "%2B", "+");
     std::string text = spec.preset;
     if (!query.empty()) (text += ',') += query;
     if (!version.empty()) (text += ",v=") += version;
@@ -374,8 +450,8 @@ Resource world_resource(const Context& context, const WorldRequest& requested,
 const RouteGroup world_routes = {
     .tag = "worlds",
     .description =
-        "Worlds: so far the ground of woods and meadows, and their weather through "
-        "200 years.",
+        "Worlds: woods and meadows of a square kilometre through 200 years, their ground, weather, "
+        "trees and fungi.",
     .routes = routes,
     .add_links = add_links,
     .add_schemas = add_schemas,

@@ -13,6 +13,7 @@
 #include "api/products/product.h"
 #include "api/products/resource.h"
 #include "core/atlas/atlas.h"
+#include "core/params/canonical.h"
 #include "core/world/world_params.h"
 
 namespace sporeprint::api {
@@ -28,6 +29,15 @@ struct Worlds {
     static std::span<const Preset> presets(const Atlas& atlas) { return atlas.worlds(); }
     static const Preset* find(const Atlas& atlas, std::string_view id) {
         return atlas.find_world(id);
+    }
+    /// What trees and species live on is part of every world.
+    static std::string more_templates(const Atlas& atlas) {
+        std::string text;
+        for (const TreePreset& tree : atlas.trees())
+            (text += ' ') += tree.id.string() + canonical_text(tree.ecology);
+        for (const AtlasEntry& entry : atlas.entries())
+            (text += ' ') += std::to_string(entry.ecology_hash);
+        return text;
     }
 };
 

@@ -80,6 +80,8 @@ void add_cache_families(const api::Counters& counters, const Gauges& gauges, Sna
         .count(counters.morph_misses, {{"cache", "morphs"}, {"result", "miss"}})
         .count(counters.ground_hits, {{"cache", "worlds"}, {"result", "hit"}})
         .count(counters.ground_misses, {{"cache", "worlds"}, {"result", "miss"}})
+        .count(counters.block_hits, {{"cache", "blocks"}, {"result", "hit"}})
+        .count(counters.block_misses, {{"cache", "blocks"}, {"result", "miss"}})
         .count(counters.store_hits, {{"cache", "store"}, {"result", "hit"}})
         .count(counters.store_misses, {{"cache", "store"}, {"result", "miss"}});
     now.family("sporeprint_cache_bytes", "Bytes kept", gauge)
@@ -88,6 +90,7 @@ void add_cache_families(const api::Counters& counters, const Gauges& gauges, Sna
         .count(counters.image_cache_bytes, {{"cache", "images"}})
         .count(counters.morph_cache_bytes, {{"cache", "morphs"}})
         .count(counters.world_cache_bytes, {{"cache", "worlds"}})
+        .count(counters.block_cache_bytes, {{"cache", "blocks"}})
         .count(counters.store_bytes, {{"cache", "store"}});
     now.family("sporeprint_cache_entries", "Entries kept", gauge)
         .count(gauges.connections.hot_entries, {{"cache", "hot"}})
@@ -95,6 +98,7 @@ void add_cache_families(const api::Counters& counters, const Gauges& gauges, Sna
         .count(counters.image_cache_entries, {{"cache", "images"}})
         .count(counters.morph_cache_entries, {{"cache", "morphs"}})
         .count(counters.world_cache_entries, {{"cache", "worlds"}})
+        .count(counters.block_cache_entries, {{"cache", "blocks"}})
         .count(counters.store_entries, {{"cache", "store"}});
     now.family("sporeprint_cache_evictions_total", "Entries given up for others", counter)
         .count(gauges.connections.hot_evictions, {{"cache", "hot"}})
@@ -102,6 +106,7 @@ void add_cache_families(const api::Counters& counters, const Gauges& gauges, Sna
         .count(counters.image_evictions, {{"cache", "images"}})
         .count(counters.morph_evictions, {{"cache", "morphs"}})
         .count(counters.world_evictions, {{"cache", "worlds"}})
+        .count(counters.block_evictions, {{"cache", "blocks"}})
         .count(counters.store_evictions, {{"cache", "store"}});
     now.family("sporeprint_store_faults_total", "Kept files lost: damaged, or not written", counter)
         .count(counters.store_damaged, {{"fault", "damaged"}})

@@ -356,6 +356,10 @@ void add_inspections(Cases& cases) {
 }
 
 void add_worlds(Cases& cases) {
+    add_get(cases, "/v1/worlds/mixed,extent=256/season.json?year=80");
+    for (const char* plot :
+         {"plot.json", "plot.glb", "plot.glb?size=20", "plot.glb?texture_size=512"})
+        add_get(cases, std::string("/v1/worlds/birch,extent=256/y80d270/") + plot);
     add_get(cases, "/v1/worlds/beech/weather.json?year=80");
     for (const char* erosion : {"0", "0.3", "1"})
         add_get(cases, std::string("/v1/worlds/beech,terrain.erosion=") + erosion +

@@ -40,6 +40,7 @@
 #include "core/grow/colony.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/plot_of_world.h"
 #include "core/grow/set_file.h"
 #include "core/grow/tree.h"
 #include "core/math/noise.h"
@@ -51,6 +52,7 @@
 #include "core/trace/trace.h"
 #include "core/world/maps.h"
 #include "core/world/weather.h"
+#include "core/world/world_habitat.h"
 #include "tests/support/atlas.h"
 
 namespace {
@@ -300,6 +302,63 @@ void add_worlds(Requests& requests) {
         WorldParams params;
         params.extent.value = extent;
         add("default", params);
+    }
+}
+
+/// Returns the trees, dead wood, mycelia and fruit bodies of a block of a world as numbers.
+Body block_body(const WorldParams& params, int year) {
+    const World world =
+        world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)));
+    Bytes bytes;
+    const auto append_place = [&](std::uint64_t id, WorldPoint at, WorldTime from, WorldTime to) {
+        append(bytes, id);
+        append(bytes, at);
+        append(bytes, from);
+        append(bytes, to);
+    };
+    const Block block = block_of(world, {0, 0});
+    for (const StandTree& tree : block.trees) append_place(tree.id, tree.at, tree.born, tree.died);
+    for (const DeadWood& wood : block.dead) {
+        append_place(wood.id, wood.at, wood.fell, wood.gone);
+        append(bytes, wood.direction);
+    }
+    for (const Establishment& one : world.establishment)
+        bytes.insert(bytes.end(), one.shares.back().begin(), one.shares.back().end());
+    const WorldHabitat habitat(world, {0, 0}, block.trees);
+    const Fungi fungi{params.seed, world.species, habitat};
+    const Surroundings around{block.trees, block.dead};
+    const std::vector<Genet> genets = genets_of(fungi, {0, 0}, epoch_of(year), around);
+    for (const Genet& one : genets) append_place(one.id, one.centre, one.born, one.died);
+    const SeasonConditions conditions =
+        conditions_of(world.species, weather_of(params.climate, params.seed, year - 1),
+                      weather_of(params.climate, params.seed, year));
+    for (const FruitBody& body : season_of(fungi, {{0, 0}, year, genets, around}, conditions, 1.0))
+        append_place(body.id, body.at, body.emerged, body.gone);
+    return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
+}
+
+/// Returns a small plot of a world.
+Body plot_body(const WorldParams& params) {
+    auto world = std::make_shared<const World>(
+        world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params))));
+    const auto plot = plot_of_world(std::move(world), {3.0, -2.0, 4.0}, time_of(80, 270), {});
+    PlotOptions options;
+    options.texture_size = 256;
+    return grow_plot(plot->content, options, atlas()).glb;
+}
+
+/// Adds what stands and grows in a block of each world, and two plots.
+void add_blocks(Requests& requests) {
+    for (const WorldPreset& preset : atlas().worlds()) {
+        WorldParams params = params_of(preset);
+        params.extent.value = 256;
+        requests[line_of("block/" + preset.id.string(), params.seed, 80, 256)] = [params] {
+            return block_body(params, 80);
+        };
+        if (preset.id.view() == "beech" || preset.id.view() == "meadow")
+            requests[line_of("plot/" + preset.id.string(), params.seed, 80, 256)] = [params] {
+                return plot_body(params);
+            };
     }
 }
 
@@ -643,6 +702,7 @@ Requests golden_requests() {
     add_leaves(requests);
     add_trees(requests);
     add_worlds(requests);
+    add_blocks(requests);
     add_colonies(requests, atlas);
     add_compressed(requests, atlas);
     add_chains(requests, atlas);

@@ -224,6 +224,15 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await client.HEAD("/v1/worlds/{world}/{time}/maps/{map}.json", square);
     const { data: map } = await client.GET("/v1/worlds/{world}/{time}/maps/{map}.json", square);
     if (map?.width !== 65 || map.step_m[0] !== 1) throw new Error("the map is not described");
+    const year = { params: { path: { world: "meadow,extent=256" }, query: { year: 80, bbox: "-8,-8,8,8" } } };
+    await client.HEAD("/v1/worlds/{world}/season.json", year);
+    const { data: season } = await client.GET("/v1/worlds/{world}/season.json", year);
+    if (season?.species[0]?.standing.length !== 365) throw new Error("the season is not whole");
+    const plot = { params: { path: { world: "meadow,extent=256", time: "y80d270" }, query: { size: 4, texture_size: 256 } } } as const;
+    await both(client.HEAD("/v1/worlds/{world}/{time}/plot.glb", plot), client.GET("/v1/worlds/{world}/{time}/plot.glb", { ...plot, ...binary }));
+    await client.HEAD("/v1/worlds/{world}/{time}/plot.json", plot);
+    const { data: onIt } = await client.GET("/v1/worlds/{world}/{time}/plot.json", plot);
+    if (onIt?.bbox[2] !== 2) throw new Error("the plot is not described");
 
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {
