@@ -34,7 +34,10 @@ TEST_F(WorldsTest, AreListedWithTheirLinks) {
     EXPECT_EQ(worlds.size(), built_in_atlas()->worlds().size());
     for (const Value& world : worlds)
         for (const auto& [name, link] : world.find("links")->members())
-            EXPECT_EQ(ask(link.as_string()).status, 200) << name;
+            // A plot takes a second of each world; others are tested by themselves.
+            if (name != "plot" || &world == &worlds.front()) {
+                EXPECT_EQ(ask(link.as_string()).status, 200) << name;
+            }
 }
 
 TEST_F(WorldsTest, HaveOneTextForEqualParameters) {
