@@ -103,7 +103,7 @@ void check_place(const PlotRequest& request, ValidationErrors& errors) {
     const auto check = [&](double low, double high, double least, double most, const char* name) {
         if (low >= least && high <= most) return;
         const double half = 0.5 * request.params.size;
-        errors.add(400, name,
+        errors.add(422, name,
                    "the plot is partly outside the world; with size=" +
                        number_text(request.params.size) + " its middle is between " +
                        number_text(least + half) + " and " + number_text(most - half));

@@ -113,16 +113,6 @@ Value describe(const SeasonRequest& request, const World& world,
                          .set("soil_water_mm", daily(weather, &WeatherDay::soil_water)));
 }
 
-/// Returns the fruit bodies in a rectangle that stand at some time of a year.
-std::vector<FruitBody> bodies_of(const World& world, const SeasonRequest& request,
-                                 const ExecutionContext& execution) {
-    std::vector<FruitBody> bodies;
-    for (const CellIndex block : blocks_of(request.box))
-        for (const FruitBody& body : season_of_world(world, block, request.year, execution)->bodies)
-            if (contains(request.box, body.at)) bodies.push_back(body);
-    return bodies;
-}
-
 }  // namespace
 
 Plan plan_season(RouteCall& call) {
@@ -145,7 +135,8 @@ Plan plan_season(RouteCall& call) {
         const SharedWorld world =
             world_of_request(request->world.spec.params, *context.atlas, execution);
         execution.observer(Step::build);
-        const std::vector<FruitBody> bodies = bodies_of(*world, *request, execution);
+        const std::vector<FruitBody> bodies =
+            bodies_of_year(*world, request->box, request->year, execution);
         execution.observer(Step::pack);
         return Body{slice_of(dump(describe(*request, *world, bodies, text)))};
     };

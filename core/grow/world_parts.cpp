@@ -67,6 +67,20 @@ void compute_blocks(const World& world, const WorldBox& box, const ExecutionCont
     execution.parallel(tasks);
 }
 
+/// Computes the mycelia that fruit bodies in a rectangle in a year depend on, whose blocks are computed.
+void compute_mycelia(const World& world, const WorldBox& box, int year,
+                     const ExecutionContext& execution) {
+    std::vector<std::function<void()>> tasks;
+    const int last = epoch_of(year), first = epoch_of(std::max(year - 1, 0));
+    for (const CellIndex block : blocks_of({box.west - block_side, box.south - block_side,
+                                            box.east + block_side, box.north + block_side}))
+        for (int epoch = first; epoch <= last; ++epoch)
+            tasks.emplace_back([&world, &execution, block, epoch] {
+                static_cast<void>(mycelia_of_world(world, block, epoch, execution));
+            });
+    execution.parallel(tasks);
+}
+
 BlockSeason season_in(const World& world, CellIndex block, int year,
                       const ExecutionContext& execution) {
     const Block around = neighbourhood_of(world, block, execution);
@@ -158,15 +172,22 @@ Block blocks_round(const World& world, const WorldBox& box, const ExecutionConte
     return out;
 }
 
-std::vector<FruitBody> bodies_in(const World& world, const WorldBox& box, WorldTime time,
-                                 const ExecutionContext& execution) {
+std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box, int year,
+                                      const ExecutionContext& execution) {
     compute_blocks(world, box, execution);
-    const int year = time / ticks_of_year;
+    compute_mycelia(world, box, year, execution);
     std::vector<FruitBody> out;
     for (const CellIndex block : blocks_of(box))
         for (const FruitBody& body : season_of_world(world, block, year, execution)->bodies)
-            if (body.stands_at(time) && contains(box, body.at)) out.push_back(body);
+            if (contains(box, body.at)) out.push_back(body);
     sort_by_id(out);
+    return out;
+}
+
+std::vector<FruitBody> bodies_in(const World& world, const WorldBox& box, WorldTime time,
+                                 const ExecutionContext& execution) {
+    std::vector<FruitBody> out = bodies_of_year(world, box, time / ticks_of_year, execution);
+    std::erase_if(out, [&](const FruitBody& body) { return !body.stands_at(time); });
     return out;
 }
 

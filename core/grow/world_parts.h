@@ -39,6 +39,11 @@ namespace sporeprint {
 [[nodiscard]] Block blocks_round(const World& world, const WorldBox& box,
                                  const ExecutionContext& execution);
 
+/// Returns the fruit bodies in a rectangle that stand at some time of a year, by ascending ids. What they depend on is
+/// computed in parallel.
+[[nodiscard]] std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box,
+                                                    int year, const ExecutionContext& execution);
+
 /// Returns the fruit bodies in a rectangle at a moment, by ascending ids.
 [[nodiscard]] std::vector<FruitBody> bodies_in(const World& world, const WorldBox& box,
                                                WorldTime time, const ExecutionContext& execution);

@@ -12,7 +12,7 @@
 namespace sporeprint {
 
 /// Crowns grow slowly: the light below them is that of the middle of so many years.
-inline constexpr int light_years = 20;
+inline constexpr int light_years = 40;
 
 /// Returns the crown of a tree in summer.
 [[nodiscard]] Crown crown_of(const World& world, const StandTree& tree, WorldTime time);

@@ -58,7 +58,9 @@ TEST_F(WorldPlotsTest, ChangeWithTheYearAndTheDay) {
 TEST_F(WorldPlotsTest, RefuseOtherPlacesTimesAndImages) {
     EXPECT_TRUE(names(ask(world + "/y80/plot.glb"), "time", "y80d270"));
     EXPECT_TRUE(names(ask(world + "/y80d366/plot.glb"), "time", "y200d365"));
-    EXPECT_TRUE(names(ask(world + "/y80d1/plot.glb?x=124"), "x", "between -123 and 123"));
+    const Response outside = ask(world + "/y80d1/plot.glb?x=124");
+    EXPECT_EQ(outside.status, 422);
+    EXPECT_TRUE(names(outside, "x", "between -123 and 123"));
     EXPECT_TRUE(names(ask(world + "/y80d1/plot.glb?y=-130&size=2"), "y", "outside the world"));
     EXPECT_TRUE(names(ask(world + "/y80d1/plot.glb?size=33"), "size", "32"));
     EXPECT_TRUE(names(ask(world + "/y80d1/plot.glb?hight=3"), "hight", "unknown"));
