@@ -157,7 +157,7 @@ TEST(EcologyOfSpecies, FruitsInTheTemperaturesOfItsMonths) {
     EXPECT_EQ(oyster.temperature.at(8.0), 1.0);
 }
 
-// Spore lengths and widths, micrometres, are those of /work/shared/reference/species_facts.json.
+// Recorded lengths and widths of spores, micrometres, from the sources that the facts of each species name.
 TEST(EcologyOfSpecies, HasSporesThatFallByStokesLaw) {
     struct Size {
         const char* id;
