@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, serverUrl } from "./support.mjs";
+import { launchBrowser, logEvents, patience, serverUrl } from "./support.mjs";
 
 const base = serverUrl({ everySpecies: true });
 const token = process.env.SPOREPRINT_TOKEN ?? "";
@@ -24,7 +24,7 @@ async function openAlone(query) {
     const viewport = { width: 640, height: 480 };
     const context = await browser.newContext({ reducedMotion: "reduce", viewport });
     const page = await context.newPage();
-    page.setDefaultTimeout(120_000);
+    page.setDefaultTimeout(patience);
     const log = logEvents(page);
     // Software WebGL keeps a loaded machine busy for long.
     await page.goto(`${base}/breed${query}`, { waitUntil: "commit" });
@@ -47,7 +47,7 @@ async function open(query = founders, state = "ready") {
 
 /** Waits until the page is ready or failed. */
 function at(page, state) {
-    return page.waitForFunction((wanted) => document.documentElement.dataset.breed === wanted, state, { timeout: 120_000 });
+    return page.waitForFunction((wanted) => document.documentElement.dataset.breed === wanted, state, { timeout: patience });
 }
 
 const ready = (page) => at(page, "ready");
@@ -63,7 +63,7 @@ async function after9(page, act) {
     await page.waitForFunction(
         (old) => document.documentElement.dataset.breed === "ready" && JSON.stringify(window.breeding.children()) !== old,
         before,
-        { timeout: 120_000 },
+        { timeout: patience },
     );
 }
 
@@ -273,7 +273,7 @@ test("a child goes to the designer as its draft, and comes back from there as a 
     page.once("dialog", (dialog) => void dialog.accept());
     await page.locator('[data-child="0"]').press("s");
     await page.locator("#save-designer").click();
-    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
+    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: patience });
     assertQuiet(log);
     await page.goto(`${base}/breed`);
     await ready(page);

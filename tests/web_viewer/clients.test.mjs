@@ -7,6 +7,7 @@ import {
     bundled,
     launchBrowser,
     logEvents,
+    patience,
     root,
     screenshotFolder,
     serverUrl,
@@ -70,7 +71,7 @@ async function walked(t, species) {
     });
     await page.goto(`${address}forest?${new URLSearchParams({ server, species: species.join() })}`);
     await page.waitForFunction(() => window.forest ?? window.forestError, null, {
-        timeout: 120_000,
+        timeout: patience,
     });
     const error = await page.evaluate(() => window.forestError);
     const report = await page.evaluate(() => window.forest);
@@ -103,7 +104,7 @@ async function differenceOf(t, query) {
     const page = await browser.newPage();
     t.after(() => page.close());
     await page.goto(`${address}compare?${new URLSearchParams({ server, ...query })}`);
-    await page.waitForFunction(() => window.difference, null, { timeout: 60_000 });
+    await page.waitForFunction(() => window.difference, null, { timeout: patience });
     const difference = await page.evaluate(() => window.difference);
     if (!difference.error)
         await page.screenshot({ path: path.join(await screenshotFolder(), "compare.png") });
@@ -179,7 +180,7 @@ test("an impostor looks like the mesh at a distance", async (t) => {
         const log = logEvents(page);
         const query = new URLSearchParams({ server, product, lod, side: 40 });
         await page.goto(`${address}impostor?${query}`);
-        await page.waitForFunction(() => window.impostor, null, { timeout: 60_000 });
+        await page.waitForFunction(() => window.impostor, null, { timeout: patience });
         const { error, views } = await page.evaluate(() => window.impostor);
         assert.equal(error, undefined);
         for (const { view, shader } of views) {
@@ -207,7 +208,7 @@ test("no species shows a speck from any side", async (t) => {
         const product = `mushrooms/${id}.glb?lod=0&texture_size=512&seed=${i}&age=${age}`;
         const view = { azimuth: (73 * i) % 360, elevation: [25, 5, 85, -40][i % 4] };
         await page.goto(`${address}specks?${new URLSearchParams({ server, product, ...view })}`);
-        await page.waitForFunction(() => window.specks, null, { timeout: 120_000 });
+        await page.waitForFunction(() => window.specks, null, { timeout: patience });
         const { error, found, covered } = await page.evaluate(() => window.specks);
         assert.equal(error, undefined, product);
         assert.ok(covered > 0.02, `${product} covers ${covered} of the picture`);

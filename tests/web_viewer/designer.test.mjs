@@ -8,6 +8,7 @@ import {
     bundled,
     launchBrowser,
     logEvents,
+    patience,
     root,
     screenshotFolder,
     serverUrl,
@@ -69,7 +70,7 @@ after(() => browser?.close());
 async function openAlone(options) {
     const context = await browser.newContext({ reducedMotion: "reduce", ...options });
     const page = await context.newPage();
-    page.setDefaultTimeout(90_000);
+    page.setDefaultTimeout(patience);
     const log = logEvents(page);
     await page.goto(`${base}/editor`);
     await at(page, "empty");
@@ -92,7 +93,7 @@ function at(page, state) {
     return page.waitForFunction(
         (wanted) => document.documentElement.dataset.designer === wanted,
         state,
-        { timeout: 120_000 },
+        { timeout: patience },
     );
 }
 
@@ -527,7 +528,7 @@ test("all stages stand side by side, each has its own outline, and all have the 
     const before = await speciesOf(page);
     const stages = page.locator("#stage-list button");
     assert.equal(await stages.count(), before.stages.length);
-    await page.locator('#stages[data-pictures="complete"]').waitFor({ timeout: 120_000 });
+    await page.locator('#stages[data-pictures="complete"]').waitFor({ timeout: patience });
     assert.equal(await page.locator("#stage-list .refused").count(), 0);
     const drawn = await page.locator("#stage-list canvas").evaluateAll((all) =>
         all.map((canvas) => {

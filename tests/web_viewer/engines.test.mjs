@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { bundled, launchBrowser, root, serverUrl } from "./support.mjs";
+import { bundled, launchBrowser, patience, root, serverUrl } from "./support.mjs";
 
 const server = serverUrl({ everySpecies: true });
 let browser;
@@ -12,7 +12,7 @@ let page;
 before(async () => {
     browser = await launchBrowser();
     page = await browser.newPage();
-    page.setDefaultTimeout(60_000);
+    page.setDefaultTimeout(patience);
     const script = await bundled(path.join(root, "tests/web_viewer/engines_page.mjs"));
     const address = `${server}/engines/`;
     const html = '<!doctype html><canvas></canvas><script type="module" src="page.js"></script>';

@@ -4,7 +4,14 @@ import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
-import { galleryComplete, launchBrowser, logEvents, ready, serverUrl } from "./support.mjs";
+import {
+    galleryComplete,
+    launchBrowser,
+    logEvents,
+    patience,
+    ready,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl({ everySpecies: true });
 const token = process.env.SPOREPRINT_TOKEN ?? "";
@@ -30,12 +37,12 @@ after(() => browser?.close());
 async function open(fragment = `#token=${token}`) {
     const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1000, height: 700 } });
     const page = await context.newPage();
-    page.setDefaultTimeout(60_000);
+    page.setDefaultTimeout(patience);
     page.on("dialog", (dialog) => void dialog.accept());
     const log = logEvents(page);
     await page.goto(`${base}/editor${fragment}`);
     await page.locator("#file").setInputFiles(picture);
-    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
+    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: patience });
     return { page, log };
 }
 
@@ -108,7 +115,7 @@ test("of two writers of a draft the later one chooses, and nothing is lost", asy
     await page.locator("#height").fill("77");
     await page.locator("#height").press("Enter");
     await page.locator("#tab-library").click();
-    await page.locator("#library-conflict").waitFor({ timeout: 60_000 });
+    await page.locator("#library-conflict").waitFor({ timeout: patience });
     assert.equal((await (await fetch(path, { headers })).json()).facts.common_name, "Theirs");
     await page.getByRole("button", { name: "Save this one as cep_of_two_2" }).click();
     await page.locator("#library-state", { hasText: "cep_of_two_2" }).waitFor();
@@ -145,7 +152,7 @@ test("species of the library are listed and opened again; a wrong token is named
     await page.locator("#library-published .address").waitFor();
     // A reload goes on with the same species of the library.
     await page.reload();
-    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
+    await page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: patience });
     await page.locator("#tab-library").click();
     assert.equal(await page.locator("#library-name").inputValue(), "cep_again");
     assert.match(await page.locator("#library-published .address").getAttribute("href"), /~me\.cep_again@1\.glb$/);
@@ -161,7 +168,7 @@ test("the viewer shows what is published: by address, in the gallery and in mixe
     await stored("boletus_edulis", "cep_in_lists");
     const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1100, height: 700 } });
     const page = await context.newPage();
-    page.setDefaultTimeout(60_000);
+    page.setDefaultTimeout(patience);
     const log = logEvents(page);
     await page.goto(`${base}/?species=~me.cep_in_lists&lod=3&textures=none`);
     await ready(page);
@@ -192,7 +199,7 @@ test("the designer starts from species of the library, page by page, and from ow
     for (const name of ["paged_a", "paged_b"]) await stored("boletus_edulis", name);
     const context = await browser.newContext({ reducedMotion: "reduce", viewport: { width: 1100, height: 700 } });
     const page = await context.newPage();
-    page.setDefaultTimeout(60_000);
+    page.setDefaultTimeout(patience);
     // Pages are made of one species, so that there are some.
     await page.route(/\/v1\/library\?/, (route) =>
         route.continue({ url: route.request().url().replace(/limit=\d+/, "limit=1") }),
@@ -252,9 +259,9 @@ test("own species are renamed, taken out of lists, shared, saved as files and de
     await item.locator("[data-action=make-link]").click();
     const link = await item.locator(".share-link").inputValue();
     const reader = await (await browser.newContext({ viewport: { width: 800, height: 500 } })).newPage();
-    reader.setDefaultTimeout(60_000);
+    reader.setDefaultTimeout(patience);
     await reader.goto(link);
-    await reader.locator("#found-numbers", { hasText: "from the file of a species" }).waitFor({ timeout: 60_000 });
+    await reader.locator("#found-numbers", { hasText: "from the file of a species" }).waitFor({ timeout: patience });
     assert.equal(new URL(reader.url()).hash, "", "the key does not stay in the address");
     await item.locator("[data-action=revoke]").click();
     await item.locator(".links li").waitFor({ state: "detached" });
@@ -302,9 +309,9 @@ test("touch alone goes from a photograph to a published species", async (t) => {
         isMobile: true,
     });
     const page = await context.newPage();
-    page.setDefaultTimeout(90_000);
+    page.setDefaultTimeout(patience);
     const ready = () =>
-        page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: 120_000 });
+        page.waitForFunction(() => document.documentElement.dataset.designer === "ready", undefined, { timeout: patience });
     const session = await context.newCDPSession(page);
     const touch = (type, ...points) =>
         session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });

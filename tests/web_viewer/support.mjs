@@ -23,6 +23,12 @@ export function serverUrl({ everySpecies = false } = {}) {
     return url.replace(/\/+$/, "");
 }
 
+/**
+ * Milliseconds after which a page that is waited for counts as hung. Beside a build or tests with
+ * sanitizers, a page that is ready in seconds has taken two minutes.
+ */
+export const patience = 300_000;
+
 export async function screenshotFolder() {
     const folder = path.resolve(root, process.env.SCREENSHOT_DIR ?? "build/screenshots");
     await mkdir(folder, { recursive: true });
@@ -83,7 +89,7 @@ export function logEvents(page) {
 
 /** Waits until the shown model equals the controls and a frame was drawn. */
 export async function ready(page) {
-    await page.waitForFunction(() => window.sporeprint, undefined, { timeout: 120_000 });
+    await page.waitForFunction(() => window.sporeprint, undefined, { timeout: patience });
     await page.evaluate(() => window.sporeprint.ready());
 }
 
@@ -93,7 +99,7 @@ export async function galleryComplete(page) {
         () => document.documentElement.dataset.gallery === "complete",
         undefined,
         {
-            timeout: 180_000,
+            timeout: patience,
         },
     );
 }
