@@ -61,57 +61,6 @@ ShapeChoice chosen(const std::vector<const FruitBody*>& bodies, WorldTime time) 
     return choice;
 }
 
-/// The dead trunks of a plot on which bodies grow.
-class BearingTrunks {
-  public:
-    BearingTrunks(const PlotContent& content, const PlotFrame& frame)
-        : content_(content), frame_(frame) {}
-
-    /// Returns the place on the bark in a direction from the axis, nearest to a body; nothing if its trunk is not
-    /// there.
-    [[nodiscard]] std::optional<glm::dvec3> place(const FruitBody& body, const glm::dvec3& out) {
-        const auto wood = std::find_if(content_.dead_wood.begin(), content_.dead_wood.end(),
-                                       [&](const DeadWood& one) { return one.id == body.trunk; });
-        if (wood == content_.dead_wood.end()) return std::nullopt;
-        const auto [found, is_new] = lines_.try_emplace(body.trunk);
-        if (is_new) found->second = trunk_line(*wood, content_, frame_);
-        if (!found->second) return std::nullopt;
-        const SineCosine turn = sine_cosine(wood->direction);
-        const double along = wood->lies_at(content_.time)
-                                 ? metres(body.at.x - wood->at.x) * turn.cosine +
-                                       metres(body.at.y - wood->at.y) * turn.sine
-                                 : body.height;
-        // Slightly below the bark, which is uneven.
-        constexpr double depth = 0.96;
-        const TrunkSection section =
-            found->second->section(std::clamp(along, found->second->from, found->second->to));
-        return section.middle + depth * section.radius * out;
-    }
-
-  private:
-    const PlotContent& content_;
-    const PlotFrame& frame_;
-    std::map<std::uint64_t, std::optional<TrunkLine>> lines_;
-};
-
-GlbTransform place_of(const FruitBody& body, const PlotFrame& frame, bool is_lateral,
-                      BearingTrunks& trunks) {
-    const double x = metres(body.at.x), y = metres(body.at.y);
-    glm::dvec3 foot = frame.at(x, y, frame.floor().at(x, y) + body.height);
-    if (body.trunk != 0) {
-        const SineCosine facing = sine_cosine(body.facing), pitch = sine_cosine(body.pitch);
-        const glm::dvec3 out(facing.cosine * pitch.cosine, pitch.sine, -facing.sine * pitch.cosine);
-        foot = trunks.place(body, out).value_or(foot);
-        if (is_lateral) {
-            const glm::dvec3 up = square_to(out, {0.0, 1.0, 0.0});
-            return {foot, quaternion_of({glm::cross(up, out), up, out})};
-        }
-    }
-    Random random(body.seed(), purposes::plot_pieces, 2);
-    const SineCosine half = sine_cosine(pi * random.uniform());
-    return {foot, {0.0, half.sine, 0.0, half.cosine}};
-}
-
 }  // namespace
 
 PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,

@@ -7,7 +7,7 @@
 
 #include "core/gltf/glb.h"
 #include "core/grow/plot.h"
-#include "core/grow/plot_parts.h"
+#include "core/grow/plot_places.h"
 #include "core/individual/individual.h"
 
 namespace sporeprint {

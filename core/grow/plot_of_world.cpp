@@ -13,17 +13,6 @@ std::int32_t units_at(double metres) {
     return static_cast<std::int32_t>(std::floor(metres * units_of_metre));
 }
 
-/// Returns the crowns that shade a plot or the ground near it.
-std::vector<Crown> crowns_round(const WorldPlot& plot, const WorldBox& box, WorldTime time) {
-    const double reach = plot_margin + shade_reach;
-    const WorldBox wide{box.west - reach, box.south - reach, box.east + reach, box.north + reach};
-    std::vector<Crown> crowns;
-    for (const StandTree& tree : plot.around.trees)
-        if (tree.lives_at(time) && tree.born < time && contains(wide, tree.at))
-            crowns.push_back(crown_of(*plot.world, tree, time));
-    return crowns;
-}
-
 double soil_water_at(const WorldParams& params, WorldTime time) {
     const WeatherYear weather =
         weather_of(params.climate, params.seed, static_cast<int>(time / ticks_of_year));
@@ -31,6 +20,31 @@ double soil_water_at(const WorldParams& params, WorldTime time) {
 }
 
 }  // namespace
+
+std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
+                             const WorldBox& box, WorldTime time) {
+    std::vector<Crown> crowns;
+    for (const StandTree& tree : trees)
+        if (tree.lives_at(time) && tree.born < time && contains(box, tree.at))
+            crowns.push_back(crown_of(world, tree, time));
+    return crowns;
+}
+
+PlotContent content_of(const World& world, const PlotPlace& place, WorldTime time) {
+    PlotContent content;
+    content.ground = world.ground.get();
+    content.seed = world.params.seed;
+    content.centre = {units_at(place.x), units_at(place.y)};
+    content.size = place.size;
+    content.time = time;
+    for (const StandKind& kind : world.stand.kinds) content.kinds.push_back(kind.id);
+    content.species = world.species_ids;
+    content.soil_water = soil_water_at(world.params, time);
+    content.acidity = world.params.soil.acidity;
+    content.micro = world.params.terrain.micro;
+    content.wind_to = world.downwind();
+    return content;
+}
 
 std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> world,
                                                const PlotPlace& place, WorldTime time,
@@ -42,22 +56,14 @@ std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> worl
     const WorldBox box{place.x - half, place.y - half, place.x + half, place.y + half};
     plot->around = blocks_round(of, box, execution);
     plot->bodies = bodies_in(of, box, time, execution);
-    plot->canopy.emplace(crowns_round(*plot, box, time));
+    const double reach = plot_margin + shade_reach;
+    const WorldBox wide{box.west - reach, box.south - reach, box.east + reach, box.north + reach};
+    plot->canopy.emplace(crowns_in(of, plot->around.trees, wide, time));
     PlotContent& content = plot->content;
-    content.ground = of.ground.get();
-    content.seed = of.params.seed;
-    content.centre = {units_at(place.x), units_at(place.y)};
-    content.size = place.size;
-    content.time = time;
-    for (const StandKind& kind : of.stand.kinds) content.kinds.push_back(kind.id);
-    content.species = of.species_ids;
+    content = content_of(of, place, time);
     content.trees = plot->around.trees;
     content.dead_wood = plot->around.dead;
     content.bodies = plot->bodies;
-    content.soil_water = soil_water_at(of.params, time);
-    content.acidity = of.params.soil.acidity;
-    content.micro = of.params.terrain.micro;
-    content.wind_to = of.downwind();
     content.light = [&of, &canopy = *plot->canopy](double x, double y) {
         const WorldPoint at{units_at(x), units_at(y)};
         return of.site_at(at).light * canopy.at(x, y, of.place_at(at).height, 1.0);

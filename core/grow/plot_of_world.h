@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/grow/plot.h"
@@ -15,6 +16,15 @@ namespace sporeprint {
 struct PlotPlace {
     double x = 0.0, y = 0.0, size = 10.0;
 };
+
+/// Returns the crowns of the trees that stand in a rectangle at a moment, in the order of the trees.
+[[nodiscard]] std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
+                                           const WorldBox& box, WorldTime time);
+
+/// Returns what a plot shows of a world but for trees, dead wood, fruit bodies and light.
+///
+/// world  must outlive the result
+[[nodiscard]] PlotContent content_of(const World& world, const PlotPlace& place, WorldTime time);
 
 /// A plot of a world. Its content refers to the other members, so that it cannot be copied.
 struct WorldPlot {

@@ -24,8 +24,6 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint64_t shapes_of_kind = 4;
-
 /// Side of the images of bark and leaves at LOD 0; it halves with every level.
 constexpr int tree_texture_side = 2048;
 
@@ -52,12 +50,6 @@ const LeafPreset& leaf_of_preset(const TreePreset& tree, const Atlas& atlas) {
     return *found;
 }
 
-/// Returns a rotation about the vertical axis.
-glm::dvec4 turned(double angle) {
-    const SineCosine half = sine_cosine(0.5 * angle);
-    return {0.0, half.sine, 0.0, half.cosine};
-}
-
 TreeSpec tree_spec(const TreePreset& preset, std::uint64_t shape, int lod, const LeafState& state,
                    bool evergreen) {
     TreeSpec spec{preset.id.string(), params_of(preset)};
@@ -80,106 +72,7 @@ std::shared_ptr<const TreeMeshes> cached_meshes(const TreeSpec& spec, const Atla
     });
 }
 
-/// Returns the parts of a line, from 0 to 1, between which it is in a rectangle; nothing if it misses it.
-std::optional<std::pair<double, double>> part_within(const WorldBox& box, const glm::dvec2& from,
-                                                     const glm::dvec2& to) {
-    double first = 0.0, last = 1.0;
-    const auto clip = [&](double start, double way, double low, double high) {
-        if (std::abs(way) < 1e-9) {
-            if (start < low || start > high) last = -1.0;
-            return;
-        }
-        const double a = (low - start) / way, b = (high - start) / way;
-        first = std::max(first, std::min(a, b));
-        last = std::min(last, std::max(a, b));
-    };
-    clip(from.x, to.x - from.x, box.west, box.east);
-    clip(from.y, to.y - from.y, box.south, box.north);
-    if (first >= last) return std::nullopt;
-    return std::pair{first, last};
-}
-
-/// How far a log bends with the ground: over half of this length its height is the mean of the ground's, metres.
-constexpr double stiffness = 2.4;
-
-/// Heights of the ground along a line, which a stiff trunk follows.
-class LogProfile {
-  public:
-    LogProfile(const FloorHeights& floor, const glm::dvec2& from, const glm::dvec2& way,
-               double length) {
-        const auto count = static_cast<std::size_t>(std::ceil(length / step)) + 1;
-        std::vector<double> own;
-        own.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const double s = std::min(static_cast<double>(i) * step, length);
-            own.push_back(floor.at(from.x + s * way.x, from.y + s * way.y));
-        }
-        const auto reach = static_cast<std::size_t>(stiffness / step);
-        heights_.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t side = std::min({reach, i, count - 1 - i});
-            double sum = 0.0;
-            for (std::size_t k = i - side; k <= i + side; ++k) sum += own[k];
-            heights_.push_back(sum / static_cast<double>(2 * side + 1));
-        }
-    }
-    [[nodiscard]] double at(double s) const {
-        const double number = std::clamp(s / step, 0.0, static_cast<double>(heights_.size() - 1));
-        const auto i = std::min(static_cast<std::size_t>(number), heights_.size() - 1);
-        const std::size_t next = std::min(i + 1, heights_.size() - 1);
-        return heights_[i] + (number - static_cast<double>(i)) * (heights_[next] - heights_[i]);
-    }
-
-  private:
-    static constexpr double step = 0.2;  // metres
-    std::vector<double> heights_;
-};
-
 int sides_of(double radius) { return radius > 0.18 ? 16 : radius > 0.08 ? 12 : 8; }
-
-TrunkLine line_of_snag(const DeadWood& wood, const PlotContent& content, const PlotFrame& frame) {
-    const double x = metres(wood.at.x), y = metres(wood.at.y);
-    const double radius = radius_at(wood, content.time), lost = mass_lost(wood, content.time);
-    // Tops break off first, piece by piece.
-    Random random(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 1);
-    const double share_left = 1.0 - (0.15 + 0.55 * random.uniform()) * std::min(1.0, 2.5 * lost);
-    const double height = std::max(1.0, wood.length * share_left);
-    const double ground = frame.floor().at(x, y) - 0.2 * radius;
-    const double whole = std::max(wood.length, height);
-    return {0.0, height, [=, &frame](double up) {
-                const double flare = 0.55 * exponential(-std::max(up, 0.0) / (1.6 * radius));
-                const double taper = 1.0 - 0.8 * std::clamp(up / whole, 0.0, 1.0);
-                return TrunkSection{frame.at(x, y, ground + up), radius * (taper + flare)};
-            }};
-}
-
-std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& content,
-                                     const PlotFrame& frame) {
-    constexpr double least_length = 0.25;
-    const SineCosine turn = sine_cosine(wood.direction);
-    const glm::dvec2 foot(metres(wood.at.x), metres(wood.at.y)), way(turn.cosine, turn.sine);
-    const double radius = radius_at(wood, content.time), lost = mass_lost(wood, content.time);
-    // A cut end stays within the slab.
-    WorldBox box = frame.box();
-    const double inset = 1.1 * radius;
-    box.west += inset;
-    box.south += inset;
-    box.east -= inset;
-    box.north -= inset;
-    const auto part = part_within(box, foot, foot + wood.length * way);
-    if (!part) return std::nullopt;
-    const double from = part->first * wood.length, to = part->second * wood.length;
-    if (to - from < least_length) return std::nullopt;
-    const LogProfile profile(frame.floor(), foot + from * way, way, to - from);
-    // Rotten wood sinks into the ground.
-    const double raised = 0.72 - 0.55 * lost, whole = wood.length;
-    return TrunkLine{
-        from, to, [=, &frame](double s) {
-            const double here = radius * (1.0 - 0.8 * std::clamp(s / whole, 0.0, 1.0));
-            const glm::dvec2 at = foot + s * way;
-            return TrunkSection{frame.at(at.x, at.y, profile.at(s - from) + raised * here), here};
-        }};
-}
 
 PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& content,
                const CoverField& cover, Substrate kind) {
@@ -230,23 +123,25 @@ glm::dvec4 standing_on(const glm::dvec3& up, double angle) {
 
 }  // namespace
 
-PlotFrame::PlotFrame(const PlotContent& content, const FloorHeights& floor)
-    : floor_(&floor),
-      box_(box_of(content)),
-      x_(metres(content.centre.x)),
-      y_(metres(content.centre.y)),
-      height_(slab_height(place_at(*content.ground, coordinate_at(content.ground->grid, x_),
-                                   coordinate_at(content.ground->grid, y_))
-                              .height)) {}
-
-bool PlotFrame::has(const WorldPoint& at) const {
-    const double x = metres(at.x), y = metres(at.y);
-    return x >= box_.west && x < box_.east && y >= box_.south && y < box_.north;
+PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind, std::uint64_t number,
+                            int lod, const Atlas& atlas, const ExecutionContext& execution) {
+    const TreePreset& preset = preset_of(content, kind, atlas);
+    const LeafPreset& leaf = leaf_of_preset(preset, atlas);
+    const LeafState state = leaves_on(day_of_year(content.time));
+    PlotTrees::Shape shape;
+    shape.kind = kind;
+    shape.spec = tree_spec(preset, number, lod, state, has_needles({leaf.shape, leaf.palette}));
+    shape.name = product_name(shape.spec, atlas);
+    shape.meshes = cached_meshes(shape.spec, atlas, execution);
+    const Bounds box = bounds(*shape.meshes);
+    shape.size.height = std::max(0.1, static_cast<double>(box.max.y));
+    shape.size.radius =
+        std::max(0.02, 0.25 * static_cast<double>(box.max.x - box.min.x + box.max.z - box.min.z));
+    return shape;
 }
 
 PlotTrees trees_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,
                    std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
-    const LeafState state = leaves_on(day_of_year(content.time));
     std::vector<const StandTree*> standing;
     for (const StandTree& tree : content.trees)
         if (tree.lives_at(content.time) && frame.has(tree.at)) standing.push_back(&tree);
@@ -257,39 +152,16 @@ PlotTrees trees_of(const PlotContent& content, const PlotOptions& options, const
         std::uint64_t triangles = 0;
         for (const StandTree* tree : standing) {
             throw_if_cancelled(execution);
-            const std::uint64_t shape = (tree->id >> 32U) % shapes_of_kind;
+            const std::uint64_t number = shape_number(*tree);
             const auto [found, is_new] =
-                shape_of.try_emplace({tree->kind, shape}, made.shapes.size());
-            if (is_new) {
-                const TreePreset& preset = preset_of(content, tree->kind, atlas);
-                const LeafPreset& leaf = leaf_of_preset(preset, atlas);
-                PlotTrees::Shape& own = made.shapes.emplace_back();
-                own.kind = tree->kind;
-                own.spec =
-                    tree_spec(preset, shape, lod, state, has_needles({leaf.shape, leaf.palette}));
-                own.name = product_name(own.spec, atlas);
-                own.meshes = cached_meshes(own.spec, atlas, execution);
-                const Bounds box = bounds(*own.meshes);
-                own.height = std::max(0.1, static_cast<double>(box.max.y));
-                own.radius = std::max(0.02, 0.25 * static_cast<double>(box.max.x - box.min.x +
-                                                                       box.max.z - box.min.z));
-            }
+                shape_of.try_emplace({tree->kind, number}, made.shapes.size());
+            if (is_new)
+                made.shapes.push_back(
+                    tree_shape(content, tree->kind, number, lod, atlas, execution));
             const PlotTrees::Shape& own = made.shapes[found->second];
             triangles += own.meshes->triangles();
-            const double x = metres(tree->at.x), y = metres(tree->at.y);
-            const double height = height_at(*tree, content.time);
-            const double scale = std::max(height / own.height, 1e-3);
-            // Trees of a wood are slenderer than those that stand alone, as the presets do.
-            const double breadth =
-                std::clamp(crown_radius(height) / own.radius, 0.5 * scale, 1.2 * scale);
-            Random random(static_cast<std::uint32_t>(tree->id), purposes::plot_pieces);
-            const double angle = 2.0 * pi * random.uniform();
-            // The foot of the mesh reaches into the ground that is raised round it.
-            const double sunk = 0.12 * trunk_diameter(height);
-            made.trees.push_back({found->second,
-                                  tree->id,
-                                  {frame.at(x, y, frame.floor().at(x, y) - sunk), turned(angle),
-                                   glm::dvec3(breadth, scale, breadth)}});
+            made.trees.push_back(
+                {found->second, tree->id, place_of(*tree, content.time, own.size, frame)});
         }
         if (triangles <= most || lod == last_far_lod) break;
         // Impostors are for the distance; after the common levels come the far ones.
@@ -306,15 +178,6 @@ Substrate wood_of(const TreePreset& tree) {
     if (leaf == "birch") return Substrate::birch;
     if (leaf == "shoot" || leaf == "needle") return Substrate::spruce;
     return Substrate::beech;
-}
-
-std::optional<TrunkLine> trunk_line(const DeadWood& wood, const PlotContent& content,
-                                    const PlotFrame& frame) {
-    if (!(wood.length > 0.0) || !(wood.radius > 0.0)) return std::nullopt;
-    if (wood.lies_at(content.time)) return line_of_log(wood, content, frame);
-    if (wood.stands_at(content.time) && frame.has(wood.at))
-        return line_of_snag(wood, content, frame);
-    return std::nullopt;
 }
 
 std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,

@@ -2,42 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/grow/plot.h"
+#include "core/grow/plot_places.h"
 #include "core/grow/tree.h"
-#include "core/plant/trunk_piece.h"
 #include "core/plant/wood_image.h"
 
 namespace sporeprint {
-
-/// The frame of a plot: places of a world, metres, as places of a file.
-class PlotFrame {
-  public:
-    PlotFrame(const PlotContent& content, const FloorHeights& floor);
-    [[nodiscard]] glm::dvec3 at(double x, double y, double height) const {
-        return {x - x_, height - height_, y_ - y};
-    }
-    /// Returns the place on the floor.
-    [[nodiscard]] glm::dvec3 on_floor(double x, double y) const {
-        return at(x, y, floor_->at(x, y));
-    }
-    /// Returns the height of what is at y = 0, metres.
-    [[nodiscard]] double height() const { return height_; }
-    [[nodiscard]] const WorldBox& box() const { return box_; }
-    [[nodiscard]] const FloorHeights& floor() const { return *floor_; }
-    /// Returns true if a place is on the half-open square of the plot.
-    [[nodiscard]] bool has(const WorldPoint& at) const;
-
-  private:
-    const FloorHeights* floor_;
-    WorldBox box_;
-    double x_, y_, height_;
-};
 
 /// The meshes of the individuals of trees on a plot, at most four of each kind.
 struct PlotTrees {
@@ -46,7 +20,7 @@ struct PlotTrees {
         std::string name;
         TreeSpec spec;
         std::shared_ptr<const TreeMeshes> meshes;
-        double height = 1.0, radius = 0.3;  ///< of the tree and of its crown, metres
+        TreeSize size;
     };
     struct Placed {
         std::size_t shape = 0;
@@ -56,6 +30,17 @@ struct PlotTrees {
     std::vector<Shape> shapes;
     std::vector<Placed> trees;
 };
+
+/// How many individuals show all trees of a kind, and which of them shows a tree.
+inline constexpr std::uint64_t tree_shapes_of_kind = 4;
+[[nodiscard]] inline std::uint64_t shape_number(const StandTree& tree) {
+    return (tree.id >> 32U) % tree_shapes_of_kind;
+}
+
+/// Returns an individual of a kind of trees, with the leaves of the day of a plot.
+[[nodiscard]] PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind,
+                                          std::uint64_t number, int lod, const Atlas& atlas,
+                                          const ExecutionContext& execution);
 
 /// Returns the trees that stand on a plot.
 ///
@@ -74,17 +59,6 @@ struct PlotLog {
 
 /// Returns the wood of a kind of tree.
 [[nodiscard]] Substrate wood_of(const TreePreset& tree);
-
-/// The part of a dead trunk that is on a plot.
-struct TrunkLine {
-    double from = 0.0, to = 0.0;  ///< distances from its foot, metres
-    /// Returns the section at a distance from the foot, also beyond the part; lives as long as the frame.
-    std::function<TrunkSection(double)> section;
-};
-
-/// Returns how a dead trunk lies or stands on a plot; nothing for one that is not there.
-[[nodiscard]] std::optional<TrunkLine> trunk_line(const DeadWood& wood, const PlotContent& content,
-                                                  const PlotFrame& frame);
 
 /// Returns the dead trunks on a plot: logs are cut where they leave it.
 [[nodiscard]] std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,

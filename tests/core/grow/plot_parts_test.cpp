@@ -37,16 +37,6 @@ struct Parts {
     }
 };
 
-TEST(PlotFrame, HasEastToTheRightAndNorthToTheBack) {
-    const Parts parts(small_wood().content(1.0, -2.0));
-    EXPECT_EQ(parts.frame.at(2.0, -2.0, parts.frame.height()), glm::dvec3(1.0, 0.0, 0.0));
-    EXPECT_EQ(parts.frame.at(1.0, -1.0, parts.frame.height()), glm::dvec3(0.0, 0.0, -1.0));
-    EXPECT_NEAR(parts.frame.height(), 0.12 * 1.0 + 0.06 * 2.0, 0.002);
-    EXPECT_TRUE(parts.frame.has(world_point(-1.0, -4.0)));
-    EXPECT_FALSE(parts.frame.has(world_point(3.0, -2.0)))
-        << "the east side belongs to the next plot";
-}
-
 TEST(PlotTrees, StandOnTheFloorWithTheirHeights) {
     const Parts parts(small_wood().content(0.0, 0.0, 8.0));
     PlotOptions options;
@@ -59,7 +49,7 @@ TEST(PlotTrees, StandOnTheFloorWithTheirHeights) {
         ASSERT_NE(record, parts.content.trees.end());
         const PlotTrees::Shape& shape = made.shapes[tree.shape];
         EXPECT_EQ(shape.kind, record->kind);
-        EXPECT_NEAR(tree.place.scale.y * shape.height, height_at(*record, parts.content.time),
+        EXPECT_NEAR(tree.place.scale.y * shape.size.height, height_at(*record, parts.content.time),
                     1e-6);
         const double above = parts.above_floor(glm::vec3(tree.place.translation));
         EXPECT_LE(above, 1e-4) << "no foot hangs in the air";
