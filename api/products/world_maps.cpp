@@ -1,5 +1,6 @@
 #include "api/products/world_maps.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -11,10 +12,13 @@
 #include "api/products/resource.h"
 #include "api/products/world_parts.h"
 #include "api/products/worlds.h"
+#include "core/grow/plot_of_world.h"
+#include "core/grow/world_parts.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
 #include "core/params/schema.h"
 #include "core/surface/codecs.h"
+#include "core/world/fungi_params.h"
 #include "core/world/ground.h"
 #include "core/world/maps.h"
 #include "core/world/weather.h"
@@ -26,10 +30,14 @@ namespace {
 /// The map whose file has the colours of Terrarium in place of grey; it shows heights.
 constexpr const char* terrarium = "terrarium";
 
+/// The day of the year whose trees maps of crowns show: any day between spring and the storms of autumn.
+constexpr int midsummer_day = 172;
+
 /// The query of a map.
 struct MapParams {
     int size = 512;
     Text<120> bbox;
+    Text<48> species;
 
     static constexpr void fields(auto visit) {
         using M = MapParams;
@@ -43,6 +51,10 @@ struct MapParams {
                              .most = 120,
                              .doc = "West, south, east and north edge, from the centre of the "
                                     "world: -100,-50,100,50. The whole world without it."});
+        visit(&M::species, Info{.name = "species",
+                                .most = 48,
+                                .doc = "Whose spores the map of spores shows: one of the fungi of "
+                                       "the world; the first without it."});
     }
     bool operator==(const MapParams&) const = default;
 };
@@ -57,12 +69,13 @@ struct MapRequest {
     int day = 0;  ///< 0 for maps that do not change from day to day
     WorldBox box;
     int size = 0;
+    std::string species;  ///< of the map of spores
 
     [[nodiscard]] std::string name() const {
         return is_terrarium ? terrarium : sporeprint::name(map);
     }
     [[nodiscard]] std::string time() const {
-        return day == 0 ? "y0" : 'y' + std::to_string(year) + 'd' + std::to_string(day);
+        return 'y' + std::to_string(year) + (day == 0 ? "" : 'd' + std::to_string(day));
     }
     [[nodiscard]] MapFrame frame() const { return frame_of(box, size); }
 };
@@ -85,6 +98,13 @@ PlaceCost place_cost_of(const MapRequest& request) {
             return {4, 14};
         case WorldMap::streams:
             return {4, 4};
+        case WorldMap::sky:
+        case WorldMap::spores:
+            return {60, 14};
+        case WorldMap::light:
+            return {900, 29};
+        case WorldMap::canopy:
+            return {900, 29};
     }
     return {};
 }
@@ -96,7 +116,13 @@ Cost cost_of_map(const MapRequest& request, MapFile file) {
         static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
     const PlaceCost cost = place_cost_of(request);
     const std::uint64_t nanoseconds = cost.value + (file == MapFile::png ? cost.png : 1);
-    return {.base = 200 + places * nanoseconds / 1000};
+    const double rim = block_side;
+    const std::uint64_t blocks = has_crowns(request.map)
+                                     ? blocks_of({request.box.west - rim, request.box.south - rim,
+                                                  request.box.east + rim, request.box.north + rim})
+                                           .size()
+                                     : 0;
+    return {.base = 200 + places * nanoseconds / 1000 + 20'000 * blocks};
 }
 
 void read_map_name(std::string_view text, MapRequest& request, ValidationErrors& errors) {
@@ -122,13 +148,36 @@ void read_map_name(std::string_view text, MapRequest& request, ValidationErrors&
 /// Reads the {time} of a URL into the year and the day of a request.
 void read_time(std::string_view text, MapRequest& request, ValidationErrors& errors) {
     const WorldTimeRead time = read_world_time(text, errors);
+    if (has_years(request.map)) request.year = time.year;
     if (!has_days(request.map)) return;
     if (time.is_valid && time.day == 0)
         errors.add(400, "time",
                    std::string(name(request.map)) + " changes from day to day; add one, such as " +
                        std::string(text) + "d270");
-    request.year = time.year;
     request.day = time.day;
+}
+
+/// Reads whose spores a map shows.
+std::string read_species(const MapRequest& request, std::string_view text,
+                         ValidationErrors& errors) {
+    if (request.is_terrarium || request.map != WorldMap::spores) {
+        if (!text.empty())
+            errors.add(400, "species",
+                       "is for the map of spores; this is the map of " + request.name());
+        return {};
+    }
+    std::vector<Problem> problems;
+    const std::vector<std::string> known =
+        species_in(request.world.spec.params.fungi.species, "species", problems);
+    if (text.empty() && !known.empty()) return known.front();
+    if (std::find(known.begin(), known.end(), text) != known.end()) return std::string(text);
+    std::string list;
+    for (const std::string& id : known) (list += list.empty() ? "" : ", ") += id;
+    errors.add(known.empty() ? 422 : 400, "species",
+               known.empty()
+                   ? "no fungus lives in this world"
+                   : in_quotes(text) + " does not live in this world; its fungi are " + list);
+    return {};
 }
 
 MapRequest read_map(const RouteCall& call, ValidationErrors& errors) {
@@ -143,12 +192,14 @@ MapRequest read_map(const RouteCall& call, ValidationErrors& errors) {
     const WorldBox extent = extent_of(request.world.spec.params);
     request.box = read_box(params.bbox, extent, extent, errors);
     request.size = params.size;
+    request.species = read_species(request, params.species, errors);
     return request;
 }
 
 /// Returns the canonical query.
 std::string query_of(const MapRequest& request) {
-    MapParams params{request.size, {}};
+    MapParams params{request.size, {}, {}};
+    params.species = Text<48>(request.species);
     if (request.box != extent_of(request.world.spec.params))
         params.bbox = Text<120>(text_of(request.box));
     return query_text(params);
@@ -185,8 +236,39 @@ ImageTexts texts_of(const MapRequest& request, const MapRange& range, const std:
     return texts;
 }
 
-Bytes png_of(const MapRequest& request, const Ground& ground, const std::string& world,
+/// The parts of a world that its maps are computed from.
+struct MapSource {
+    SharedGround ground;
+    SharedWorld world;  ///< of maps that need one
+};
+
+/// Returns the numbers of a map.
+std::vector<std::uint16_t> numbers_of(const MapRequest& request, const MapSource& source,
+                                      const ExecutionContext& execution) {
+    MapInputs inputs{.ground = *source.ground,
+                     .soil_water = soil_water_on(request),
+                     .world = source.world.get(),
+                     .year = request.year};
+    if (request.map == WorldMap::spores) {
+        const std::vector<std::string>& ids = source.world->species_ids;
+        inputs.species = static_cast<std::size_t>(
+            std::find(ids.begin(), ids.end(), request.species) - ids.begin());
+    }
+    inputs.crowns = [&](CellIndex block) {
+        throw_if_cancelled(execution);
+        const double west = block.x * block_side, south = block.y * block_side;
+        const WorldBox box{west, south, west + block_side, south + block_side};
+        const double reach = shade_reach + 1.0;
+        return crowns_in(*source.world, blocks_round(*source.world, box, execution).trees,
+                         {west - reach, south - reach, box.east + reach, box.north + reach},
+                         time_of(request.year, midsummer_day));
+    };
+    return map_of(request.map, inputs, request.frame(), execution.parallel);
+}
+
+Bytes png_of(const MapRequest& request, const MapSource& source, const std::string& world,
              const ExecutionContext& execution) {
+    const Ground& ground = *source.ground;
     const MapFrame frame = request.frame();
     const ImageTexts texts = texts_of(request, range_of(request.map, ground), world);
     if (request.is_terrarium) {
@@ -194,15 +276,14 @@ Bytes png_of(const MapRequest& request, const Ground& ground, const std::string&
         execution.observer(Step::pack);
         return png_of_numbers(rgb, frame.width, frame.height, texts);
     }
-    const std::vector<std::uint16_t> numbers =
-        map_of(request.map, ground, frame, soil_water_on(request), execution.parallel);
+    const std::vector<std::uint16_t> numbers = numbers_of(request, source, execution);
     execution.observer(Step::pack);
     return png_of_numbers(numbers, frame.width, frame.height, texts);
 }
 
-Bytes r16_of(const MapRequest& request, const Ground& ground, const ExecutionContext& execution) {
-    const std::vector<std::uint16_t> numbers =
-        map_of(request.map, ground, request.frame(), soil_water_on(request), execution.parallel);
+Bytes r16_of(const MapRequest& request, const MapSource& source,
+             const ExecutionContext& execution) {
+    const std::vector<std::uint16_t> numbers = numbers_of(request, source, execution);
     execution.observer(Step::pack);
     Bytes out;
     out.reserve(2 * numbers.size());
@@ -273,20 +354,20 @@ Value describe(const Context& context, const MapRequest& request, const Ground& 
 
 /// Returns the bytes of a file of a map.
 Slice slice_of_map(MapFile file, const Context& context, const MapRequest& request,
-                   const Ground& ground, const std::string& world,
+                   const MapSource& source, const std::string& world,
                    const ExecutionContext& execution) {
     const auto shared = [](Bytes bytes) {
         return Slice(std::make_shared<const Bytes>(std::move(bytes)));
     };
     switch (file) {
         case MapFile::png:
-            return shared(png_of(request, ground, world, execution));
+            return shared(png_of(request, source, world, execution));
         case MapFile::r16:
-            return shared(r16_of(request, ground, execution));
+            return shared(r16_of(request, source, execution));
         case MapFile::json:
             break;
     }
-    return slice_of(dump(describe(context, request, ground, world)));
+    return slice_of(dump(describe(context, request, *source.ground, world)));
 }
 
 Plan plan_file(RouteCall& call, MapFile file) {
@@ -301,24 +382,36 @@ Plan plan_file(RouteCall& call, MapFile file) {
                                        query_of(*request));
     resource.type = type_of(file);
     resource.file_name = request->world.spec.preset + '_' + request->name() +
-                         (request->day == 0 ? "" : '_' + request->time()) + ending_of(file);
+                         (request->species.empty() ? "" : '_' + request->species) +
+                         (has_years(request->map) ? '_' + request->time() : "") + ending_of(file);
     resource.estimate_cost = [cost = cost_of_map(*request, file)](const Caches&) { return cost; };
     // The range of heights alone depends on the ground.
     const bool needs_ground = file != MapFile::json || request->map == WorldMap::height;
-    if (needs_ground)
+    const bool with_world = file != MapFile::json && needs_world(request->map);
+    if (with_world)
+        resource.prerequisite = [request, atlas = context.atlas](Store& store) {
+            return world_job(store, request->world.spec.params, atlas);
+        };
+    else if (needs_ground)
         resource.prerequisite = [request](Store& store) {
             return ground_job(store, request->world.spec.params);
         };
-    resource.make = [&context, request, needs_ground, file,
+    resource.make = [&context, request, needs_ground, with_world, file,
                      world = world_text(request->world.spec, *context.atlas, resource.version)](
                         JobContext& job) {
         const ExecutionContext& execution = job.execution();
         execution.observer(Step::resolve);
-        const SharedGround ground =
-            needs_ground ? ground_of_world(request->world.spec.params, execution.caches)
-                         : std::make_shared<const Ground>();
+        const WorldParams& params = request->world.spec.params;
+        MapSource source;
+        if (with_world) {
+            source.world = world_of_request(params, *context.atlas, execution);
+            source.ground = source.world->ground;
+        } else {
+            source.ground = needs_ground ? ground_of_world(params, execution.caches)
+                                         : std::make_shared<const Ground>();
+        }
         execution.observer(Step::build);
-        return Body{slice_of_map(file, context, *request, *ground, world, execution)};
+        return Body{slice_of_map(file, context, *request, source, world, execution)};
     };
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
@@ -364,14 +457,14 @@ Value map_schema() {
 
 Value map_list(const ResponseBuilder& responses, const std::string& world) {
     Value maps = Value::object();
-    const Value names = map_names(MapFile::json);
-    for (const Value& one : names.items()) {
-        const std::string& map = one.as_string();
-        std::string address = world;
-        address += map == name(WorldMap::wetness) ? "/y0d1/maps/" : "/y0/maps/";
-        (address += map) += ".json";
-        maps.set(map, responses.link(address));
+    const auto add = [&](const char* map, const char* time) {
+        maps.set(map, responses.link(world + time + "/maps/" + map + ".json"));
+    };
+    for (int i = 0; const char* map = name(static_cast<WorldMap>(i)); ++i) {
+        const auto kind = static_cast<WorldMap>(i);
+        add(map, has_days(kind) ? "/y80d270" : has_years(kind) ? "/y80" : "/y0");
     }
+    add(terrarium, "/y0");
     return maps;
 }
 

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <utility>
 
 #include "core/math/elementary.h"
 #include "core/world/drainage.h"
+#include "core/world/horizon.h"
+#include "core/world/spread.h"
 
 namespace sporeprint {
 
@@ -14,7 +18,11 @@ namespace {
 /// Rows that one task computes.
 constexpr int stripe_rows = 32;
 
-/// Calls use(index, x, y) for each place of a frame, stripes of rows by tasks.
+/// The top of the range of the map of crowns, metres.
+constexpr double highest_crown = 64.0;
+
+/// Calls use(index, x, y, east, north) for each place of a frame, by its coordinates on the grid and in metres; stripes
+/// of rows by tasks.
 template <class Use>
 void each_place(const Grid& grid, const MapFrame& frame, const Parallel& parallel, const Use& use) {
     std::vector<Coordinate> columns;
@@ -24,8 +32,10 @@ void each_place(const Grid& grid, const MapFrame& frame, const Parallel& paralle
     const auto stripe = [&](int first) {
         auto index = static_cast<std::size_t>(first) * columns.size();
         for (int row = first; row < std::min(first + stripe_rows, frame.height); ++row) {
-            const Coordinate y = coordinate_at(grid, frame.y(row));
-            for (const Coordinate& x : columns) use(index++, x, y);
+            const double north = frame.y(row);
+            const Coordinate y = coordinate_at(grid, north);
+            for (int column = 0; column < frame.width; ++column)
+                use(index++, columns[static_cast<std::size_t>(column)], y, frame.x(column), north);
         }
     };
     std::vector<std::function<void()>> tasks;
@@ -47,8 +57,23 @@ double aspect_at(const Ground& ground, const Coordinate& x, const Coordinate& y)
     return angle < 0.0 ? angle + 360.0 : angle;
 }
 
-double value_at(WorldMap map, const Ground& ground, const Coordinate& x, const Coordinate& y,
-                double soil_water) {
+/// Returns the height of the crowns over a place, metres; 0 between them.
+double canopy_at(std::span<const Crown> crowns, double x, double y, double ground) {
+    double top = ground;
+    for (const Crown& crown : crowns) {
+        const double east = x - crown.x, north = y - crown.y;
+        const double share = (east * east + north * north) / (crown.radius * crown.radius);
+        if (share >= 1.0) continue;
+        const double half = 0.5 * (crown.top - crown.base);
+        top = std::max(top, crown.base + half * (1.0 + std::sqrt(1.0 - share)));
+    }
+    return top - ground;
+}
+
+/// The value of a map that shows no crowns, at a place and its coordinates on the ground.
+double value_at(WorldMap map, const MapInputs& inputs, const Coordinate& x, const Coordinate& y,
+                double east, double north) {
+    const Ground& ground = inputs.ground;
     switch (map) {
         case WorldMap::height:
             return place_at(ground, x, y).height;
@@ -59,11 +84,83 @@ double value_at(WorldMap map, const Ground& ground, const Coordinate& x, const C
         case WorldMap::twi:
             return wetness_index_at(ground, x, y);
         case WorldMap::wetness:
-            return wetness_on(ground, wetness_index_at(ground, x, y), soil_water);
+            return wetness_on(ground, wetness_index_at(ground, x, y), inputs.soil_water);
         case WorldMap::streams:
             return stream_at(ground, x, y);
+        case WorldMap::sky:
+            return horizon_at(inputs.world->horizon, east, north).sky;
+        case WorldMap::spores:
+            return establishment_at(inputs.world->establishment[inputs.species], east, north,
+                                    inputs.year);
+        case WorldMap::light:
+        case WorldMap::canopy:
+            break;  // by blocks
     }
     return 0.0;
+}
+
+/// The columns or rows of a frame that belong to a row or column of blocks, from `first` to before `last`.
+struct Nodes {
+    int first = 0, last = 0;
+};
+
+/// Computes the values of a map of crowns in one block.
+///
+/// use  called with the index of each place and its value
+template <class Use>
+void map_crowns(WorldMap map, const MapInputs& inputs, const MapFrame& frame, CellIndex block,
+                const Nodes& columns, const Nodes& rows, const Use& use) {
+    std::vector<Crown> crowns = inputs.crowns(block);
+    // Crowns are at most a few metres wide.
+    constexpr double reach = shade_reach;
+    std::erase_if(crowns, [&](const Crown& crown) {
+        return crown.x < frame.x(columns.first) - reach ||
+               crown.x > frame.x(columns.last - 1) + reach ||
+               crown.y < frame.y(rows.last - 1) - reach || crown.y > frame.y(rows.first) + reach;
+    });
+    const CanopyLight canopy(crowns);
+    for (int row = rows.first; row < rows.last; ++row)
+        for (int column = columns.first; column < columns.last; ++column) {
+            const double x = frame.x(column), y = frame.y(row);
+            const Coordinate east = coordinate_at(inputs.ground.grid, x),
+                             north = coordinate_at(inputs.ground.grid, y);
+            const Place place = place_at(inputs.ground, east, north);
+            const double value =
+                map == WorldMap::canopy
+                    ? canopy_at(crowns, x, y, place.height)
+                    : light_at(horizon_at(inputs.world->horizon, x, y), place, inputs.world->sun) *
+                          canopy.at(x, y, place.height, 1.0);
+            use(static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) +
+                    static_cast<std::size_t>(column),
+                value);
+        }
+}
+
+/// Returns the nodes of a frame along one axis by blocks, in ascending numbers of nodes.
+template <class Coordinates>
+std::vector<std::pair<int, Nodes>> by_blocks(int count, const Coordinates& at) {
+    std::vector<std::pair<int, Nodes>> out;
+    for (int i = 0; i < count; ++i) {
+        const int block = static_cast<int>(std::floor(at(i) / block_side));
+        if (out.empty() || out.back().first != block) out.push_back({block, {i, i}});
+        out.back().second.last = i + 1;
+    }
+    return out;
+}
+
+/// Computes a map of crowns, one task for each block.
+template <class Use>
+void each_block(WorldMap map, const MapInputs& inputs, const MapFrame& frame,
+                const Parallel& parallel, const Use& use) {
+    const auto columns = by_blocks(frame.width, [&](int i) { return frame.x(i); }),
+               rows = by_blocks(frame.height, [&](int i) { return frame.y(i); });
+    std::vector<std::function<void()>> tasks;
+    for (const auto& [y, of_row] : rows)
+        for (const auto& [x, of_column] : columns)
+            tasks.emplace_back([&, block = CellIndex{x, y}, across = of_column, down = of_row] {
+                map_crowns(map, inputs, frame, block, across, down, use);
+            });
+    parallel(tasks);
 }
 
 }  // namespace
@@ -85,6 +182,15 @@ const char* doc_of(WorldMap map) {
             return "1 where more than two hectares drain through a node of the ground, 0 "
                    "elsewhere; between "
                    "nodes it is linear, so a stream is where it is above 0.5.";
+        case WorldMap::sky:
+            return "Share of the sky that hills leave open.";
+        case WorldMap::light:
+            return "Light at the ground in summer, below crowns and between hills, as a share of "
+                   "that of an open sky.";
+        case WorldMap::canopy:
+            return "Height of the crowns of trees above the ground; 0 between them.";
+        case WorldMap::spores:
+            return "How far a species (species=) has spread: 1 where it is as common as it can be.";
     }
     return "";
 }
@@ -101,7 +207,12 @@ MapRange range_of(WorldMap map, const Ground& ground) {
             return {-wetness_offset, 65535.0 / wetness_units - wetness_offset, ""};
         case WorldMap::wetness:
         case WorldMap::streams:
+        case WorldMap::sky:
+        case WorldMap::light:
+        case WorldMap::spores:
             return {0.0, 1.0, ""};
+        case WorldMap::canopy:
+            return {0.0, highest_crown, "m"};
     }
     return {};
 }
@@ -115,18 +226,23 @@ MapFrame frame_of(const WorldBox& box, int side) {
     return {box, nodes(width), nodes(height)};
 }
 
-std::vector<std::uint16_t> map_of(WorldMap map, const Ground& ground, const MapFrame& frame,
-                                  double soil_water, const Parallel& parallel) {
-    const MapRange range = range_of(map, ground);
+std::vector<std::uint16_t> map_of(WorldMap map, const MapInputs& inputs, const MapFrame& frame,
+                                  const Parallel& parallel) {
+    const MapRange range = range_of(map, inputs.ground);
     const double scale = 65535.0 / (range.to - range.from);
     std::vector<std::uint16_t> out(static_cast<std::size_t>(frame.width) *
                                    static_cast<std::size_t>(frame.height));
-    each_place(ground.grid, frame, parallel,
-               [&](std::size_t i, const Coordinate& x, const Coordinate& y) {
-                   const double value = value_at(map, ground, x, y, soil_water);
-                   out[i] = static_cast<std::uint16_t>(
-                       std::clamp(std::floor((value - range.from) * scale + 0.5), 0.0, 65535.0));
-               });
+    const auto write = [&](std::size_t i, double value) {
+        out[i] = static_cast<std::uint16_t>(
+            std::clamp(std::floor((value - range.from) * scale + 0.5), 0.0, 65535.0));
+    };
+    if (has_crowns(map)) {
+        each_block(map, inputs, frame, parallel, write);
+        return out;
+    }
+    each_place(inputs.ground.grid, frame, parallel,
+               [&](std::size_t i, const Coordinate& x, const Coordinate& y, double east,
+                   double north) { write(i, value_at(map, inputs, x, y, east, north)); });
     return out;
 }
 
@@ -135,7 +251,7 @@ std::vector<std::uint8_t> terrarium_of(const Ground& ground, const MapFrame& fra
     std::vector<std::uint8_t> out(3 * static_cast<std::size_t>(frame.width) *
                                   static_cast<std::size_t>(frame.height));
     each_place(ground.grid, frame, parallel,
-               [&](std::size_t i, const Coordinate& x, const Coordinate& y) {
+               [&](std::size_t i, const Coordinate& x, const Coordinate& y, double, double) {
                    const double height = place_at(ground, x, y).height;
                    const auto units =
                        static_cast<std::uint32_t>(std::floor((height + 32768.0) * 256.0 + 0.5));

@@ -3,14 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/images.h"
+#include "core/world/canopy_light.h"
 #include "core/world/ground.h"
+#include "core/world/world.h"
 
 namespace sporeprint {
 
-enum class WorldMap { height, slope, aspect, twi, wetness, streams };
+enum class WorldMap { height, slope, aspect, twi, wetness, streams, sky, light, canopy, spores };
 
 constexpr const char* name(WorldMap map) {
     switch (map) {
@@ -26,6 +29,14 @@ constexpr const char* name(WorldMap map) {
             return "wetness";
         case WorldMap::streams:
             return "streams";
+        case WorldMap::sky:
+            return "sky";
+        case WorldMap::light:
+            return "light";
+        case WorldMap::canopy:
+            return "canopy";
+        case WorldMap::spores:
+            return "spores";
     }
     return nullptr;
 }
@@ -35,6 +46,33 @@ constexpr const char* name(WorldMap map) {
 
 /// Returns true if a map changes from day to day.
 [[nodiscard]] constexpr bool has_days(WorldMap map) { return map == WorldMap::wetness; }
+
+/// Returns true if a map shows the crowns of trees.
+[[nodiscard]] constexpr bool has_crowns(WorldMap map) {
+    return map == WorldMap::light || map == WorldMap::canopy;
+}
+
+/// Returns true if a map changes from year to year.
+[[nodiscard]] constexpr bool has_years(WorldMap map) {
+    return has_days(map) || has_crowns(map) || map == WorldMap::spores;
+}
+
+/// Returns true if a map needs more of a world than its ground.
+[[nodiscard]] constexpr bool needs_world(WorldMap map) {
+    return has_crowns(map) || map == WorldMap::spores || map == WorldMap::sky;
+}
+
+/// What the values of a map are computed from.
+struct MapInputs {
+    const Ground& ground;
+    double soil_water = 0.0;  ///< of the day (WeatherDay), mm; of maps that change from day to day
+    const World* world = nullptr;  ///< of maps that need one, over the same ground
+    int year = 0;                  ///< of maps that change from year to year
+    std::size_t species = 0;       ///< of the map of spores: which of the world's
+    /// Returns the crowns of the trees of a block and of its neighbours by their ids, for maps of crowns; may be called
+    /// by several threads.
+    std::function<std::vector<Crown>(CellIndex)> crowns{};
+};
 
 /// The values that the least and the greatest number of a map stand for.
 struct MapRange {
@@ -70,12 +108,11 @@ struct MapFrame {
 
 /// Computes a map.
 ///
-/// soil_water  of the day (WeatherDay), mm; used by maps that change from day to day
-/// parallel    runs stripes of rows
-/// returns     width * height values, rows from north to south, each from west to east: 0..65535 for the range of the
-///             map, rounded to the nearest
-[[nodiscard]] std::vector<std::uint16_t> map_of(WorldMap map, const Ground& ground,
-                                                const MapFrame& frame, double soil_water,
+/// parallel  runs stripes of rows, or blocks
+/// returns   width * height values, rows from north to south, each from west to east: 0..65535 for the range of the map,
+///           rounded to the nearest
+[[nodiscard]] std::vector<std::uint16_t> map_of(WorldMap map, const MapInputs& inputs,
+                                                const MapFrame& frame,
                                                 const Parallel& parallel = in_turn);
 
 /// Returns heights in the colours of Terrarium: metres + 32768 = 256 R + G + B / 256, rounded to the nearest.

@@ -67,7 +67,8 @@ void map(benchmark::State& state) {
     const MapFrame frame = frame_of({-512.0, -512.0, 512.0, 512.0}, 512);
     for (auto _ : state)
         benchmark::DoNotOptimize(
-            png_of_numbers(map_of(kind, ground, frame, 60.0), frame.width, frame.height, {}));
+            png_of_numbers(map_of(kind, {.ground = ground, .soil_water = 60.0}, frame), frame.width,
+                           frame.height, {}));
     state.SetLabel(name(kind));
 }
 

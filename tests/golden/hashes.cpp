@@ -268,9 +268,13 @@ Body ground_body(const WorldParams& params) {
     for (const std::int32_t height : ground.heights) append(bytes, height);
     for (const std::uint16_t index : ground.wetness) append(bytes, index);
     const MapFrame frame = frame_of(extent_of(params), 101);
-    for (int i = 0; name(static_cast<WorldMap>(i)); ++i)
-        for (const std::uint16_t number : map_of(static_cast<WorldMap>(i), ground, frame, 60.0))
+    for (int i = 0; name(static_cast<WorldMap>(i)); ++i) {
+        const auto map = static_cast<WorldMap>(i);
+        if (needs_world(map)) continue;
+        for (const std::uint16_t number :
+             map_of(map, {.ground = ground, .soil_water = 60.0}, frame))
             append(bytes, number);
+    }
     return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
 }
 

@@ -50,7 +50,35 @@ TEST_F(WorldMapsTest, AreListedByTheirWorldAndHaveAllTheirFiles) {
         for (const auto& [kind, file] : map.find("links")->members())
             EXPECT_EQ(ask(file.as_string()).status, 200) << file.as_string();
     }
-    EXPECT_EQ(generated(), 1 + 7 + 7 + 6U) << "each file once, whatever it was named";
+    EXPECT_EQ(generated(), 1 + 11 + 11 + 10U) << "each file once, whatever it was named";
+}
+
+TEST_F(WorldMapsTest, OfCrownsAndSporesChangeWithTheYear) {
+    for (const char* map : {"canopy", "light", "spores"}) {
+        const auto ask_in = [&](const char* time, const char* file) {
+            return ask(world + '/' + time + "/maps/" + map + file);
+        };
+        const Response response = ask_in("y80d200", ".r16?size=64");
+        ASSERT_EQ(response.status, 200) << text_of(response);
+        EXPECT_NE(header(response, "Content-Location").find("/y80/maps/"), std::string::npos);
+        EXPECT_EQ(header(ask_in("y80", ".r16?size=64"), "ETag"), header(response, "ETag"));
+        EXPECT_NE(header(ask_in("y0", ".r16?size=64"), "ETag"), header(response, "ETag"));
+    }
+    const Response hygrocybe = ask(world + "/y80/maps/spores.r16?species=hygrocybe_conica");
+    ASSERT_EQ(hygrocybe.status, 200);
+    EXPECT_NE(header(hygrocybe, "ETag"), header(ask(world + "/y80/maps/spores.r16"), "ETag"));
+    EXPECT_NE(header(hygrocybe, "Content-Disposition").find("meadow_spores_hygrocybe_conica_y80"),
+              std::string::npos)
+        << header(hygrocybe, "Content-Disposition");
+}
+
+TEST_F(WorldMapsTest, HaveSporesOfFungiOfTheWorldAlone) {
+    EXPECT_TRUE(names(ask(world + "/y80/maps/spores.png?species=boletus_edulis"), "species",
+                      "its fungi are coprinus_comatus"));
+    EXPECT_TRUE(names(ask(world + "/y80/maps/light.png?species=marasmius_oreades"), "species",
+                      "for the map of spores"));
+    EXPECT_TRUE(
+        names(ask("/v1/worlds/meadow,fungi.species=/y80/maps/spores.png"), "species", "no fungus"));
 }
 
 TEST_F(WorldMapsTest, HaveTheHeightsOfTheGroundInMetres) {

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "core/world/drainage.h"
+#include "core/world/tree_growth.h"
+#include "core/world/world_habitat.h"
+#include "tests/support/worlds.h"
 
 namespace sporeprint::world_maps_test {
 namespace {
@@ -32,8 +35,8 @@ const Ground& ground() {
     return made;
 }
 
-constexpr WorldMap all_maps[] = {WorldMap::height, WorldMap::slope,   WorldMap::aspect,
-                                 WorldMap::twi,    WorldMap::wetness, WorldMap::streams};
+constexpr WorldMap ground_maps[] = {WorldMap::height, WorldMap::slope,   WorldMap::aspect,
+                                    WorldMap::twi,    WorldMap::wetness, WorldMap::streams};
 
 TEST(MapFrame, HasItsOutermostNodesOnTheEdges) {
     const MapFrame frame = frame_of({-100.0, -30.0, 60.0, 10.0}, 161);
@@ -52,7 +55,7 @@ TEST(MapFrame, HasItsOutermostNodesOnTheEdges) {
 
 TEST(WorldMap, OfHeightsIsThatOfThePlaces) {
     const MapFrame frame = frame_of(extent_of(params()), 65);
-    const auto map = map_of(WorldMap::height, ground(), frame, 0.0);
+    const auto map = map_of(WorldMap::height, {.ground = ground(), .soil_water = 0.0}, frame);
     const auto [from, to, unit] = range_of(WorldMap::height, ground());
     EXPECT_STREQ(unit, "m");
     for (int row = 0; row < frame.height; row += 7)
@@ -66,10 +69,13 @@ TEST(WorldMap, OfHeightsIsThatOfThePlaces) {
 }
 
 TEST(WorldMap, SideBySideSharesItsEdge) {
-    for (const WorldMap map : all_maps) {
-        const auto west = map_of(map, ground(), frame_of({-64.0, -32.0, 0.0, 32.0}, 65), 70.0);
-        const auto east = map_of(map, ground(), frame_of({0.0, -32.0, 64.0, 32.0}, 65), 70.0);
-        const auto finer = map_of(map, ground(), frame_of({0.0, -32.0, 64.0, 32.0}, 129), 70.0);
+    for (const WorldMap map : ground_maps) {
+        const auto west = map_of(map, {.ground = ground(), .soil_water = 70.0},
+                                 frame_of({-64.0, -32.0, 0.0, 32.0}, 65));
+        const auto east = map_of(map, {.ground = ground(), .soil_water = 70.0},
+                                 frame_of({0.0, -32.0, 64.0, 32.0}, 65));
+        const auto finer = map_of(map, {.ground = ground(), .soil_water = 70.0},
+                                  frame_of({0.0, -32.0, 64.0, 32.0}, 129));
         for (std::size_t row = 0; row < 65; ++row) {
             EXPECT_EQ(west[row * 65 + 64], east[row * 65]) << name(map);
             for (std::size_t column = 0; column < 65; ++column)
@@ -86,14 +92,15 @@ TEST(WorldMap, IsTheSameOnSeveralThreads) {
         for (const auto& task : tasks) running.emplace_back(task);
     };
     const MapFrame frame = frame_of(extent_of(params()), 200);
-    for (const WorldMap map : all_maps)
-        EXPECT_EQ(map_of(map, ground(), frame, 50.0), map_of(map, ground(), frame, 50.0, threads));
+    for (const WorldMap map : ground_maps)
+        EXPECT_EQ(map_of(map, {.ground = ground(), .soil_water = 50.0}, frame),
+                  map_of(map, {.ground = ground(), .soil_water = 50.0}, frame, threads));
     EXPECT_EQ(terrarium_of(ground(), frame), terrarium_of(ground(), frame, threads));
 }
 
 TEST(WorldMap, OfAspectsPointsDownhill) {
     const MapFrame frame = frame_of({-100.0, -100.0, 100.0, 100.0}, 101);
-    const auto map = map_of(WorldMap::aspect, ground(), frame, 0.0);
+    const auto map = map_of(WorldMap::aspect, {.ground = ground(), .soil_water = 0.0}, frame);
     int downhill = 0, places = 0;
     for (int row = 1; row < frame.height - 1; ++row)
         for (int column = 1; column < frame.width - 1; ++column) {
@@ -111,9 +118,9 @@ TEST(WorldMap, OfAspectsPointsDownhill) {
 
 TEST(WorldMap, OfWetnessGrowsWithTheWaterInTheSoil) {
     const MapFrame frame = frame_of(extent_of(params()), 100);
-    const auto dry = map_of(WorldMap::wetness, ground(), frame, 20.0),
-               wet = map_of(WorldMap::wetness, ground(), frame, 90.0),
-               index = map_of(WorldMap::twi, ground(), frame, 0.0);
+    const auto dry = map_of(WorldMap::wetness, {.ground = ground(), .soil_water = 20.0}, frame),
+               wet = map_of(WorldMap::wetness, {.ground = ground(), .soil_water = 90.0}, frame),
+               index = map_of(WorldMap::twi, {.ground = ground(), .soil_water = 0.0}, frame);
     std::size_t wetter = 0;
     for (std::size_t i = 0; i < dry.size(); ++i) {
         ASSERT_LE(dry[i], wet[i]);
@@ -123,6 +130,108 @@ TEST(WorldMap, OfWetnessGrowsWithTheWaterInTheSoil) {
         }
     }
     EXPECT_GT(wetter, dry.size() / 2);
+}
+
+/// A beech wood, and the crowns of its trees in year 80.
+const World& wood() {
+    static const World made = world_over_its_ground(small_world("beech"));
+    return made;
+}
+
+constexpr WorldTime summer = time_of(80, 180);
+
+const CachedParts& parts() {
+    static const CachedParts cached;
+    return cached;
+}
+
+Block trees_round(CellIndex block) {
+    const double west = block.x * block_side, south = block.y * block_side;
+    return blocks_round(wood(), {west, south, west + block_side, south + block_side},
+                        parts().services);
+}
+
+std::vector<Crown> crowns_round(CellIndex block) {
+    std::vector<Crown> crowns;
+    for (const StandTree& tree : trees_round(block).trees)
+        if (tree.lives_at(summer)) crowns.push_back(crown_of(wood(), tree, summer));
+    return crowns;
+}
+
+std::vector<double> values_of(WorldMap map, const MapFrame& frame, std::size_t species = 0) {
+    const MapInputs inputs{.ground = *wood().ground,
+                           .world = &wood(),
+                           .year = 80,
+                           .species = species,
+                           .crowns = crowns_round};
+    const MapRange range = range_of(map, *wood().ground);
+    std::vector<double> values;
+    for (const std::uint16_t number : map_of(map, inputs, frame))
+        values.push_back(range.from + (range.to - range.from) * number / 65535.0);
+    return values;
+}
+
+TEST(WorldMap, OfTheCanopyHasTheHeightsOfTrees) {
+    const MapFrame frame = frame_of({-20.0, -20.0, 20.0, 20.0}, 41);
+    const std::vector<double> canopy = values_of(WorldMap::canopy, frame);
+    double highest = 0.0;
+    for (const StandTree& tree : trees_round({0, 0}).trees) {
+        const double x = metres(tree.at.x), y = metres(tree.at.y);
+        if (!tree.lives_at(summer) || x < 0.0 || x > 20.0 || y < 0.0 || y > 20.0) continue;
+        const double height = height_at(tree, summer);
+        highest = std::max(highest, height);
+        if (height < 5.0) continue;
+        const auto column = static_cast<std::size_t>(std::lround(x) + 20),
+                   row = static_cast<std::size_t>(20 - std::lround(y));
+        EXPECT_GT(canopy[row * 41 + column], 0.4 * height) << "the crown of the tree is over it";
+    }
+    EXPECT_GT(highest, 10.0);
+    EXPECT_LT(*std::ranges::max_element(canopy), 1.2 * 28.0 + 3.0);
+}
+
+TEST(WorldMap, OfLightIsDarkestBelowCrowns) {
+    const MapFrame frame = frame_of({-32.0, -32.0, 32.0, 32.0}, 65);
+    const std::vector<double> light = values_of(WorldMap::light, frame),
+                              canopy = values_of(WorldMap::canopy, frame),
+                              sky = values_of(WorldMap::sky, frame);
+    double below = 0.0, beside = 0.0;
+    int crowns = 0, gaps = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        EXPECT_GT(sky[i], 0.5);
+        (canopy[i] > 10.0 ? below : beside) += light[i];
+        ++(canopy[i] > 10.0 ? crowns : gaps);
+    }
+    ASSERT_GT(crowns, 100);
+    ASSERT_GT(gaps, 100);
+    EXPECT_LT(below / crowns, 0.85 * beside / gaps);
+}
+
+TEST(WorldMap, OfCrownsIsTheSameInEveryRectangle) {
+    for (const WorldMap map : {WorldMap::light, WorldMap::canopy}) {
+        const std::vector<double> west = values_of(map, frame_of({-16.0, -8.0, 0.0, 8.0}, 17)),
+                                  east = values_of(map, frame_of({0.0, -8.0, 16.0, 8.0}, 17)),
+                                  both = values_of(map, frame_of({-16.0, -16.0, 16.0, 16.0}, 33));
+        for (std::size_t row = 0; row < 17; ++row) {
+            EXPECT_EQ(west[row * 17 + 16], east[row * 17]) << name(map);
+            for (std::size_t column = 0; column < 17; ++column) {
+                ASSERT_EQ(west[row * 17 + column], both[(row + 8) * 33 + column]) << name(map);
+                ASSERT_EQ(east[row * 17 + column], both[(row + 8) * 33 + column + 16]) << name(map);
+            }
+        }
+    }
+}
+
+TEST(WorldMap, OfSporesIsTheEstablishmentOfASpecies) {
+    const MapFrame frame = frame_of({-100.0, -100.0, 100.0, 100.0}, 21);
+    for (const std::size_t species : {std::size_t{0}, std::size_t{5}}) {
+        const std::vector<double> spores = values_of(WorldMap::spores, frame, species);
+        for (int row = 0; row < 21; row += 4)
+            for (int column = 0; column < 21; column += 4)
+                EXPECT_NEAR(spores[static_cast<std::size_t>(row * 21 + column)],
+                            establishment_at(wood().establishment[species], frame.x(column),
+                                             frame.y(row), 80),
+                            1e-5);
+    }
 }
 
 TEST(Terrarium, HasHeightsToAQuarterOfACentimetre) {
@@ -139,12 +248,14 @@ TEST(Terrarium, HasHeightsToAQuarterOfACentimetre) {
 }
 
 TEST(WorldMap, HasADescriptionAndARangeForEachName) {
-    for (const WorldMap map : all_maps) {
+    int count = 0;
+    for (int i = 0; name(static_cast<WorldMap>(i)) != nullptr; ++i, ++count) {
+        const auto map = static_cast<WorldMap>(i);
         EXPECT_GT(std::string_view(doc_of(map)).size(), 20U);
         const MapRange range = range_of(map, ground());
         EXPECT_LT(range.from, range.to);
     }
-    EXPECT_EQ(name(static_cast<WorldMap>(std::size(all_maps))), nullptr);
+    EXPECT_EQ(count, 10);
 }
 
 }  // namespace
