@@ -9,12 +9,17 @@
 #include <vector>
 
 #include "api/http/schemas.h"
+#include "api/products/pictures.h"
 #include "api/products/resource.h"
+#include "api/products/word_list.h"
 #include "api/products/world_parts.h"
 #include "api/products/worlds.h"
 #include "core/grow/plot_of_world.h"
+#include "core/grow/plot_places.h"
+#include "core/grow/plot_view.h"
 #include "core/params/query.h"
 #include "core/params/schema.h"
+#include "core/surface/codecs.h"
 #include "core/world/season.h"
 #include "core/world/tree_growth.h"
 
@@ -28,6 +33,7 @@ struct PlotParams {
     double size = 10.0;
     int lod = 1;
     double litter = 20.0;
+    Text<40> layers;
     LeafInstancing instancing = LeafInstancing::none;
     Textures textures = Textures::embedded;
     Choice<256, 512, 1024, 2048> texture_size{1024};
@@ -62,6 +68,12 @@ struct PlotParams {
                    .max = 100,
                    .doc = "Leaves that are meshes where leaves cover the ground; others "
                           "are painted."});
+        visit(&P::layers,
+              Info{.name = "layers",
+                   .most = 40,
+                   .doc = "Parts of the plot, joined by +: ground, trees, floor (dead wood, "
+                          "leaves, grass), fungi. All without it; what the others are changes "
+                          "none of them."});
         visit(&P::instancing,
               Info{.name = "instancing",
                    .doc = "How leaves and fruit bodies are repeated: as meshes and nodes, or by "
@@ -78,15 +90,89 @@ struct PlotParams {
 };
 static_assert(well_described<PlotParams>());
 
+/// The query of a picture of a plot.
+struct PlotPictureParams {
+    double x = 0.0, y = 0.0;
+    double size = 10.0;
+    int lod = 1;
+    double litter = 20.0;
+    Text<40> layers;
+    Choice<256, 512, 1024, 2048> texture_size{1024};
+    int width = 960, height = 640;
+    PlotView view = PlotView::standing;
+    double turn_deg = 0.0;
+    Background background = Background::grey;
+
+    static constexpr void fields(auto visit) {
+        using P = PlotPictureParams;
+        visit(&P::x, info_of<PlotParams>("x"));
+        visit(&P::y, info_of<PlotParams>("y"));
+        visit(&P::size, info_of<PlotParams>("size"));
+        visit(&P::lod, info_of<PlotParams>("lod"));
+        visit(&P::litter, info_of<PlotParams>("litter"));
+        visit(&P::layers, info_of<PlotParams>("layers"));
+        visit(&P::texture_size, info_of<PlotParams>("texture_size"));
+        visit(&P::width, Info{.name = "width",
+                              .unit = "pixels",
+                              .min = 64,
+                              .max = 1024,
+                              .doc = "Width of the picture."});
+        visit(&P::height, Info{.name = "height",
+                               .unit = "pixels",
+                               .min = 64,
+                               .max = 1024,
+                               .doc = "Height of the picture."});
+        visit(&P::view,
+              Info{.name = "view",
+                   .doc = "As somebody sees it who stands at its edge or kneels there, aslant from "
+                          "above, or from straight above it, below the crowns of large trees."});
+        visit(&P::turn_deg,
+              Info{.name = "turn_deg",
+                   .unit = "deg",
+                   .min = -180,
+                   .max = 180,
+                   .doc = "From where the camera looks: 0 from the south, 90 from the east."});
+        visit(&P::background, info_of<PictureParams>("background"));
+    }
+    bool operator==(const PlotPictureParams&) const = default;
+
+    /// Returns the parameters of the plot that it shows.
+    [[nodiscard]] PlotParams plot() const {
+        PlotParams params;
+        params.x = x;
+        params.y = y;
+        params.size = size;
+        params.lod = lod;
+        params.litter = litter;
+        params.layers = layers;
+        params.texture_size = texture_size;
+        return params;
+    }
+    [[nodiscard]] PictureParams picture() const {
+        PictureParams params;
+        params.width = width;
+        params.height = height;
+        params.background = background;
+        return params;
+    }
+};
+static_assert(well_described<PlotPictureParams>());
+
 /// A plot that a URL names.
 struct PlotRequest {
     WorldRequest world;
     WorldTimeRead time;
     PlotParams params;
+    PlotPictureParams picture;  ///< of a picture
+    std::array<bool, plot_layer_count> layers{};
 
     [[nodiscard]] WorldBox box() const {
         const double half = 0.5 * params.size;
         return {params.x - half, params.y - half, params.x + half, params.y + half};
+    }
+    /// Returns the canonical query of a file.
+    [[nodiscard]] std::string query(PlotFile file) const {
+        return file == PlotFile::png ? query_text(picture) : query_text(params);
     }
     /// Noon of its day.
     [[nodiscard]] WorldTime moment() const {
@@ -112,16 +198,28 @@ void check_place(const PlotRequest& request, ValidationErrors& errors) {
     check(box.south, box.north, extent.south, extent.north, "y");
 }
 
-PlotRequest read_plot(const RouteCall& call, ValidationErrors& errors) {
+PlotRequest read_plot(const RouteCall& call, PlotFile file, ValidationErrors& errors) {
     PlotRequest request;
     request.world = read_world(call.captured[0], *call.context.atlas, errors);
     request.time = read_world_time(call.captured[1], errors);
     if (request.time.is_valid && request.time.day == 0)
         errors.add(400, "time", "a plot is of one day; add it, as in " + call.captured[1] + "d270");
     std::vector<Problem> problems;
-    read_query(query_of_world(call.target, errors), request.params, problems);
+    const auto query = query_of_world(call.target, errors);
+    const auto read = [&](auto& params) {
+        read_query(query, params, problems);
+        without_negative_zero(params);
+        request.layers =
+            read_words<PlotLayer, plot_layer_count>(params.layers.view(), "layers", errors);
+        params.layers = Text<40>(words_text<PlotLayer>(request.layers));
+    };
+    if (file == PlotFile::png) {
+        read(request.picture);
+        request.params = request.picture.plot();
+    } else {
+        read(request.params);
+    }
     errors.add(400, problems);
-    without_negative_zero(request.params);
     if (errors.empty()) check_place(request, errors);
     return request;
 }
@@ -133,11 +231,13 @@ std::unique_ptr<const WorldPlot> plot_of(const PlotRequest& request, const Atlas
                          {params.x, params.y, params.size}, request.moment(), execution);
 }
 
-PlotOptions options_of(const PlotParams& params) {
+PlotOptions options_of(const PlotRequest& request) {
+    const PlotParams& params = request.params;
     PlotOptions options;
     options.lod = params.lod;
     options.texture_size = params.texture_size;
     options.litter = params.litter;
+    options.layers = request.layers;
     options.instancing = params.instancing;
     options.textures = params.textures;
     options.file.compress = params.compress;
@@ -153,6 +253,12 @@ Cost cost_of_plot(const PlotRequest& request, PlotFile file) {
     const std::uint64_t blocks = blocks_of(request.box()).size();
     Cost cost{.base = 20'000 + 100'000 * blocks};
     if (file == PlotFile::json) return cost;
+    if (file == PlotFile::png) {
+        const Cost drawing = cost_of_drawing(request.picture.picture(), most_plot_triangles);
+        cost += drawing;
+        cost.pixels += 3 * static_cast<std::uint64_t>(params.texture_size) *
+                       static_cast<std::uint64_t>(params.texture_size);
+    }
     const auto area = static_cast<std::uint64_t>(params.size * params.size);
     cost.placed_vertices = 100'000 + area * 1000;
     cost.bytes = 4'000'000 + area * 20'000;
@@ -163,14 +269,6 @@ Cost cost_of_plot(const PlotRequest& request, PlotFile file) {
 }
 
 double rounded(double value, double steps) { return std::round(value * steps) / steps + 0.0; }
-
-/// Returns an id as text: numbers of JSON have 53 bits.
-std::string id_text(std::uint64_t id) {
-    constexpr const char* digits = "0123456789abcdef";
-    std::string text(16, '0');
-    for (std::size_t i = 0; i < 16; ++i) text[i] = digits[id >> (60U - 4U * i) & 15U];
-    return text;
-}
 
 Value place_value(const World& world, WorldPoint at) {
     return Value(Value::Array{rounded(metres(at.x), 1000.0), rounded(metres(at.y), 1000.0),
@@ -230,8 +328,32 @@ Value bodies_on(const Context& context, const WorldPlot& plot, WorldTime time) {
     return list;
 }
 
+const char* ending_of(PlotFile file) {
+    switch (file) {
+        case PlotFile::glb:
+            return ".glb";
+        case PlotFile::json:
+            return ".json";
+        case PlotFile::png:
+            return ".png";
+    }
+    return "";
+}
+
+const char* type_of(PlotFile file) {
+    switch (file) {
+        case PlotFile::glb:
+            return "model/gltf-binary";
+        case PlotFile::json:
+            return "application/json";
+        case PlotFile::png:
+            return "image/png";
+    }
+    return "";
+}
+
 std::string path_of(const PlotRequest& request, PlotFile file) {
-    return '/' + request.time_text() + (file == PlotFile::glb ? "/plot.glb" : "/plot.json");
+    return '/' + request.time_text() + "/plot" + ending_of(file);
 }
 
 Value describe(const Context& context, const PlotRequest& request, const WorldPlot& plot,
@@ -242,6 +364,14 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
         return context.responses.link(with_query(
             folder_of(Worlds::all) + world + path_of(request, file), query_text(request.params)));
     };
+    const auto link_of_picture = [&] {
+        PlotPictureParams picture;
+        picture.x = request.params.x;
+        picture.y = request.params.y;
+        picture.size = request.params.size;
+        return context.responses.link(with_query(
+            folder_of(Worlds::all) + world + path_of(request, PlotFile::png), query_text(picture)));
+    };
     return Value::object()
         .set("world", world)
         .set("time", request.time_text())
@@ -250,19 +380,21 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
         .set("trees", trees_on(plot, box, time))
         .set("dead_wood", dead_on(plot, box, time))
         .set("fruit_bodies", bodies_on(context, plot, time))
-        .set("links",
-             Value::object().set("self", link(PlotFile::json)).set("model", link(PlotFile::glb)));
+        .set("links", Value::object()
+                          .set("self", link(PlotFile::json))
+                          .set("model", link(PlotFile::glb))
+                          .set("picture", link_of_picture()));
 }
 
 Plan plan_file(RouteCall& call, PlotFile file) {
     Context& context = call.context;
-    const auto request = std::make_shared<const PlotRequest>(read_plot(call, call.errors));
+    const auto request = std::make_shared<const PlotRequest>(read_plot(call, file, call.errors));
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    Resource resource = world_resource(context, request->world, path_of(*request, file),
-                                       query_text(request->params));
-    if (file == PlotFile::glb) resource.type = "model/gltf-binary";
-    resource.file_name = request->world.spec.preset + "_plot_" + request->time_text() +
-                         (file == PlotFile::glb ? ".glb" : ".json");
+    Resource resource =
+        world_resource(context, request->world, path_of(*request, file), request->query(file));
+    resource.type = type_of(file);
+    resource.file_name =
+        request->world.spec.preset + "_plot_" + request->time_text() + ending_of(file);
     resource.estimate_cost = [cost = cost_of_plot(*request, file)](const Caches&) { return cost; };
     resource.prerequisite = [request, atlas = context.atlas](Store& store) {
         return world_job(store, request->world.spec.params, atlas);
@@ -279,8 +411,19 @@ Plan plan_file(RouteCall& call, PlotFile file) {
         }
         Extras extras;
         extras.canonical = context.responses.link(address);
-        return grow_plot(plot->content, options_of(request->params), *context.atlas, extras,
-                         execution)
+        if (file == PlotFile::png) {
+            const PlotPictureParams& picture = request->picture;
+            const StandingCamera camera = camera_of(plot->content, picture.view, picture.turn_deg);
+            extras.write = [&, camera](const GlbScene& scene, const Parallel& parallel) -> Body {
+                execution.observer(Step::draw);
+                throw_if_cancelled(execution);
+                const RgbaImage image =
+                    rendered_from(camera, scene, request->picture.picture(), parallel);
+                return {Slice(
+                    std::make_shared<const Bytes>(png(image.rgba, image.width, image.height)))};
+            };
+        }
+        return grow_plot(plot->content, options_of(*request), *context.atlas, extras, execution)
             .glb;
     };
     return plan_resource(context, call.request, std::move(resource), call.errors);
@@ -295,8 +438,11 @@ Plan plan_plot(RouteCall& call) {
 
 template Plan plan_plot<PlotFile::glb>(RouteCall& call);
 template Plan plan_plot<PlotFile::json>(RouteCall& call);
+template Plan plan_plot<PlotFile::png>(RouteCall& call);
 
 Value plot_query_schema(const Atlas&) { return schema<PlotParams>(); }
+
+Value plot_picture_query_schema(const Atlas&) { return schema<PlotPictureParams>(); }
 
 Value plot_schema() {
     const Value text = typed("string"), number = typed("number");

@@ -1,4 +1,4 @@
-// Plots of worlds: a piece of a wood or meadow as one GLB file, and what is on it as JSON.
+// Plots of worlds: a piece of a wood or meadow as one GLB file, what is on it as JSON, and a picture of it.
 #pragma once
 
 #include "api/products/context.h"
@@ -9,15 +9,17 @@ namespace sporeprint::api {
 /// The files of a plot.
 enum class PlotFile {
     glb,
-    json  ///< what stands, lies and grows on it
+    json,  ///< what stands, lies and grows on it
+    png
 };
 
-/// Handles GET /v1/worlds/{world}/{time}/plot.glb and .json.
+/// Handles GET /v1/worlds/{world}/{time}/plot.glb, .json and .png.
 template <PlotFile File>
 Plan plan_plot(RouteCall& call);
 
-/// Returns the schema of the query of a plot.
+/// Returns the schema of the query of a plot, and of that of a picture.
 [[nodiscard]] Value plot_query_schema(const Atlas& atlas);
+[[nodiscard]] Value plot_picture_query_schema(const Atlas& atlas);
 
 /// Returns the schema of the JSON of a plot.
 [[nodiscard]] Value plot_schema();

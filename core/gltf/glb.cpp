@@ -190,9 +190,11 @@ const std::shared_ptr<const Bytes>& zeros() {
 /// Returns the header, the JSON chunk and the start of the BIN chunk.
 Slice head_of(std::string json, std::size_t binary) {
     json.append(padded(json.size()) - json.size(), ' ');
-    const std::size_t total = 12 + 8 + json.size() + 8 + binary;
+    // A file without a buffer has one chunk.
+    const std::size_t of_binary = binary > 0 ? 8 : 0;
+    const std::size_t total = 12 + 8 + json.size() + of_binary + binary;
     if (total > 0xFFFFFFFFULL) throw GenerationError("the file would exceed 4 GB");
-    auto head = std::make_shared<Bytes>(12 + 8 + json.size() + 8);
+    auto head = std::make_shared<Bytes>(12 + 8 + json.size() + of_binary);
     std::uint8_t* at = head->data();
     put(at, std::uint32_t{0x46546C67});  // "glTF"
     put(at, std::uint32_t{2});
@@ -201,8 +203,10 @@ Slice head_of(std::string json, std::size_t binary) {
     put(at, std::uint32_t{0x4E4F534A});  // "JSON"
     std::memcpy(at, json.data(), json.size());
     at += json.size();
-    put(at, static_cast<std::uint32_t>(binary));
-    put(at, std::uint32_t{0x004E4942});  // "BIN"
+    if (binary > 0) {
+        put(at, static_cast<std::uint32_t>(binary));
+        put(at, std::uint32_t{0x004E4942});  // "BIN"
+    }
     return Slice(std::move(head));
 }
 
@@ -335,6 +339,12 @@ NodeData node_data(const GlbScene& scene, const std::vector<float>& steps, Table
     return data;
 }
 
+/// Returns a member with a list of objects; nothing for an empty one, which glTF does not allow.
+std::string list_json(const char* name, const std::string& objects) {
+    if (objects.empty()) return {};
+    return std::string(",\"") + name + "\":[" + objects + "]";
+}
+
 /// Appends the image files of all textures, padded.
 void append_images(const TextureTables& texture_tables, Body& body) {
     for (const Slice& file : texture_tables.image_files) {
@@ -384,17 +394,20 @@ Body glb(const GlbScene& scene, const Parallel& parallel) {
     }
     const std::string extensions = extensions_json(of_file, used);
     json += "}" + used.json() + extensions + ",\"scene\":0,\"scenes\":[{\"nodes\":[" + nodes.roots +
-            "]}],\"nodes\":[" + nodes.nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" +
-            materials + "]";
+            "]}],\"nodes\":[" + nodes.nodes + "]" + list_json("meshes", meshes) +
+            list_json("materials", materials);
     if (!texture_tables.textures.empty())
         json += ",\"textures\":[" + texture_tables.textures + "],\"samplers\":[" +
                 texture_tables.samplers + "],\"images\":[" + texture_tables.images + "]";
-    append(json += ",\"buffers\":[{\"byteLength\":", tables.binary);
-    if (tables.decompressed > 0) {
-        append(json += "},{\"byteLength\":", tables.decompressed);
-        ((json += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"fallback\":true}}";
+    if (tables.binary > 0) {
+        append(json += ",\"buffers\":[{\"byteLength\":", tables.binary);
+        if (tables.decompressed > 0) {
+            append(json += "},{\"byteLength\":", tables.decompressed);
+            ((json += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"fallback\":true}}";
+        }
+        json += "}]";
     }
-    json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +
+    json += list_json("bufferViews", tables.views) + list_json("accessors", tables.accessors) +
             clip.animations + "}";
 
     Body body{head_of(std::move(json), tables.binary)};

@@ -63,6 +63,8 @@ void check(const PlotContent& content, const PlotOptions& options) {
     if (options.lod < 0 || options.lod > 2) report(problems, "/lod", "is 0..2");
     if (!(options.litter >= 0.0 && options.litter <= 100.0))
         report(problems, "/litter", "is 0..100 per m²");
+    if (std::ranges::find(options.layers, true) == options.layers.end())
+        report(problems, "/layers", "names no part of a plot");
     if (options.texture_size < 128 || options.texture_size > 2048)
         report(problems, "/texture_size", "is 128..2048 texels");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
@@ -90,24 +92,22 @@ class PlotScene {
         const FloorHeights floor(*content_.ground, content_.seed, content_.micro, feet);
         const PlotFrame frame(content_, floor);
         execution_.observer(Step::build);
-        const CoverField cover = cover_of(content_, atlas_);
+        const bool shows_cover = options_.has(PlotLayer::ground) || options_.has(PlotLayer::floor);
+        const CoverField cover = shows_cover ? cover_of(content_, atlas_) : CoverField();
         throw_if_cancelled(execution_);
-        add_slab(frame, cover);
-        trees_ = trees_of(content_, options_, frame, most_of_trees, atlas_, execution_);
-        bodies_ = bodies_of(content_, options_, frame, most_of_bodies, atlas_, execution_);
+        if (options_.has(PlotLayer::ground)) add_slab(frame, cover);
+        if (options_.has(PlotLayer::trees))
+            trees_ = trees_of(content_, options_, frame, most_of_trees, atlas_, execution_);
+        if (options_.has(PlotLayer::fungi))
+            bodies_ = bodies_of(content_, options_, frame, most_of_bodies, atlas_, execution_);
         add_trees();
-        add_logs(logs_of(content_, frame, cover, atlas_));
+        if (options_.has(PlotLayer::floor)) add_logs(logs_of(content_, frame, cover, atlas_));
         throw_if_cancelled(execution_);
         add_bodies();
-        // Of a large plot, fewer leaves per m².
-        constexpr double of_leaf = 12.0;
-        const double most_per_m2 =
-            static_cast<double>(most_of_leaves) / (of_leaf * content_.size * content_.size);
-        if (const double per_m2 = std::min(options_.litter, most_per_m2); per_m2 > 0.0)
-            leaves_ = leaves_of(content_, frame, cover, per_m2, atlas_);
-        add_leaves();
-        const std::uint64_t left = most_plot_triangles - std::min(most_plot_triangles, triangles_);
-        add_grass(grass_of(content_, frame, cover, std::min(most_of_grass, left)));
+        if (options_.has(PlotLayer::floor)) add_floor(frame, cover);
+        // A layer of which nothing is on this plot is a file that shows nothing.
+        is_empty_ = scene_.nodes.empty();
+        if (is_empty_) scene_.nodes.push_back({.name = "plot"});
         execution_.observer(Step::pack);
         Grown grown;
         grown.vertices = vertices_;
@@ -134,7 +134,21 @@ class PlotScene {
     std::vector<std::size_t> tree_nodes_, body_nodes_;
     std::vector<std::pair<std::uint64_t, std::size_t>> log_nodes_;
     Bounds box_{glm::vec3(1e9F), glm::vec3(-1e9F)};
+    bool is_empty_ = false;                           ///< nothing is shown
     std::map<std::string, std::size_t> material_of_;  ///< by name
+
+    /// Adds leaves and grass.
+    void add_floor(const PlotFrame& frame, const CoverField& cover) {
+        // Of a large plot, fewer leaves per m².
+        constexpr double of_leaf = 12.0;
+        const double most_per_m2 =
+            static_cast<double>(most_of_leaves) / (of_leaf * content_.size * content_.size);
+        if (const double per_m2 = std::min(options_.litter, most_per_m2); per_m2 > 0.0)
+            leaves_ = leaves_of(content_, frame, cover, per_m2, atlas_);
+        add_leaves();
+        const std::uint64_t left = most_plot_triangles - std::min(most_plot_triangles, triangles_);
+        add_grass(grass_of(content_, frame, cover, std::min(most_of_grass, left)));
+    }
 
     void include(const Mesh& mesh, const GlbTransform& place) {
         for (const glm::vec3& at : mesh.positions) {
@@ -364,30 +378,23 @@ class PlotScene {
             body_nodes_.push_back(node_of[body.shape]);
     }
 
-    static std::string text_of(std::uint64_t id) {
-        static constexpr char digits[] = "0123456789abcdef";
-        std::string text;
-        for (int shift = 60; shift >= 0; shift -= 4)
-            text += digits[id >> static_cast<unsigned>(shift) & 15U];
-        return text;
-    }
-
     Value extras_value() const {
-        Value extras = sporeprint::extras_value(extras_, Value::object(), box_, triangles_, {}, {});
+        const Bounds box = is_empty_ ? Bounds{} : box_;
+        Value extras = sporeprint::extras_value(extras_, Value::object(), box, triangles_, {}, {});
         Value trees = Value::array(), logs = Value::array(), bodies = Value::array();
         for (std::size_t i = 0; i < trees_.trees.size(); ++i) {
             const PlotTrees::Placed& tree = trees_.trees[i];
             trees.push(Value::object()
-                           .set("id", text_of(tree.id))
+                           .set("id", id_text(tree.id))
                            .set("kind", content_.kinds[trees_.shapes[tree.shape].kind])
                            .set("node", tree_nodes_[i]));
         }
         for (const auto& [id, node] : log_nodes_)
-            logs.push(Value::object().set("id", text_of(id)).set("node", node));
+            logs.push(Value::object().set("id", id_text(id)).set("node", node));
         for (std::size_t i = 0; i < bodies_.bodies.size(); ++i) {
             const PlotBodies::Placed& body = bodies_.bodies[i];
             bodies.push(Value::object()
-                            .set("id", text_of(body.id))
+                            .set("id", id_text(body.id))
                             .set("species", content_.species[body.species])
                             .set("seed", static_cast<std::uint32_t>(body.id))
                             .set("age", std::floor(body.age * 1000.0 + 0.5) / 1000.0)

@@ -44,6 +44,24 @@ struct PlotContent {
 /// How far trees beyond a plot affect it, metres.
 inline constexpr double plot_margin = 21.0;
 
+/// The parts of a plot. `floor` is what lies and grows on the ground: dead wood, leaves and grass.
+enum class PlotLayer { ground, trees, floor, fungi };
+inline constexpr std::size_t plot_layer_count = 4;
+
+constexpr const char* name(PlotLayer layer) {
+    switch (layer) {
+        case PlotLayer::ground:
+            return "ground";
+        case PlotLayer::trees:
+            return "trees";
+        case PlotLayer::floor:
+            return "floor";
+        case PlotLayer::fungi:
+            return "fungi";
+    }
+    return nullptr;
+}
+
 /// How a plot is shown.
 struct PlotOptions {
     int lod = 1;              ///< of fruit bodies, 0..2; of trees one more
@@ -52,6 +70,10 @@ struct PlotOptions {
     LeafInstancing instancing = LeafInstancing::none;  ///< of leaves and of fruit bodies
     Textures textures = Textures::embedded;            ///< embedded or none
     FileOptions file;
+    std::array<bool, plot_layer_count> layers{true, true, true, true};
+    [[nodiscard]] bool has(PlotLayer layer) const {
+        return layers[static_cast<std::size_t>(layer)];
+    }
 };
 
 /// The budget of a plot: what exceeds it is shown with less detail.
@@ -83,9 +105,11 @@ struct LeafState {
 
 /// Builds a plot: the middle of its square on the ground is the origin, x to the east, z to the south.
 ///
+/// Each layer is the same whichever others there are, but for the detail of grass.
+///
 /// returns  the GLB: one mesh for the slab, one for each individual of a tree, each log and snag, leaves, grass, and
 ///          each individual of a mushroom; nodes for all trees and bodies. asset.extras lists these with their ids
-/// throws   InvalidInput (paths "/kinds", "/species", "/size", "/texture_size"), Impossible for linked images (path "/textures"), Cancelled
+/// throws   InvalidInput (paths "/kinds", "/species", "/size", "/layers", "/texture_size"), Impossible for linked images (path "/textures"), Cancelled
 [[nodiscard]] Grown grow_plot(const PlotContent& content, const PlotOptions& options,
                               const Atlas& atlas, const Extras& extras = {},
                               const ExecutionContext& execution = {});

@@ -497,6 +497,30 @@ std::optional<float> ground_of(const DrawList& list, const PictureParams& params
     return foot_of_wood(list);
 }
 
+void refuse_over_triangles(const DrawList& list) {
+    if (list.triangles() > most_pictured_triangles)
+        throw Impossible("/lod", std::to_string(list.triangles()) +
+                                     " triangles would be drawn; at most " +
+                                     std::to_string(most_pictured_triangles) + " are. Raise lod");
+}
+
+Camera standing_camera(const StandingCamera& standing, double aspect) {
+    if (!(standing.angle_deg >= 1.0 && standing.angle_deg <= 150.0))
+        throw InvalidInput("/angle_deg", "is 1..150 degrees");
+    const glm::dvec3 way = standing.target - standing.eye;
+    const double level = std::sqrt(way.x * way.x + way.z * way.z);
+    // Cameras of pictures look from a direction, this one looks in one.
+    const double azimuth = arc_tangent(-way.x, -way.z) * (180.0 / pi),
+                 elevation = arc_tangent(-way.y, level) * (180.0 / pi);
+    Camera camera = camera_with(camera_axes(azimuth, elevation), aspect);
+    camera.position = glm::vec3(standing.eye);
+    const SineCosine half = sine_cosine(radians(0.5 * standing.angle_deg));
+    camera.tangent_x = static_cast<float>(half.sine / half.cosine);
+    camera.tangent_y = camera.tangent_x / static_cast<float>(aspect);
+    camera.nearest = 0.05F;
+    return camera;
+}
+
 }  // namespace
 }  // namespace render
 
@@ -513,10 +537,7 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
         render::draw_list(scene, parallel,
                           render::is_close_up(params.view) ? largest_upload_side
                                                            : std::max(params.width, params.height));
-    if (list.triangles() > most_pictured_triangles)
-        throw Impossible("/lod", std::to_string(list.triangles()) +
-                                     " triangles would be drawn; at most " +
-                                     std::to_string(most_pictured_triangles) + " are. Raise lod");
+    render::refuse_over_triangles(list);
     const bool is_sheet = params.view == View::turntable;
     const int columns = is_sheet ? turntable_columns : 1, rows = is_sheet ? turntable_rows : 1;
     RgbaImage image{params.width * columns, params.height * rows, {}};
@@ -536,6 +557,22 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
 Bytes rendered_png(const GlbScene& scene, const PictureParams& params, const Parallel& parallel) {
     const RgbaImage image = rendered(scene, params, parallel);
     return png(image.rgba, image.width, image.height);
+}
+
+RgbaImage rendered_from(const StandingCamera& camera, const GlbScene& scene,
+                        const PictureParams& params, const Parallel& parallel) {
+    require_valid(params);
+    // What is near shows a part of each image, at its full size.
+    const render::DrawList list = render::draw_list(scene, parallel, largest_upload_side);
+    render::refuse_over_triangles(list);
+    const render::Camera from = render::standing_camera(
+        camera, static_cast<double>(params.width) / static_cast<double>(params.height));
+    RgbaImage image{params.width, params.height, {}};
+    image.rgba.resize(static_cast<std::size_t>(image.width) *
+                      static_cast<std::size_t>(image.height) * 4);
+    render::Drawing(list, from, params, std::nullopt, parallel)
+        .draw(image, 0, 0, srgb_table(), parallel);
+    return image;
 }
 
 }  // namespace sporeprint

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 
 #include "core/bytes.h"
 #include "core/gltf/glb.h"
@@ -42,5 +43,22 @@ inline constexpr std::uint64_t most_pictured_triangles = 4'000'000;
 /// Returns the same as a PNG file.
 [[nodiscard]] Bytes rendered_png(const GlbScene& scene, const PictureParams& params,
                                  const Parallel& parallel = in_turn);
+
+/// A camera that stands in a scene.
+struct StandingCamera {
+    glm::dvec3 eye{0.0, 1.6, 0.0};
+    glm::dvec3 target{0.0, 0.0,
+                      -1.0};  ///< what is in the middle of the picture; not straight above the eye
+    double angle_deg = 70.0;  ///< of view, across the picture, 1..150
+};
+
+/// Draws what a camera in a scene sees; what is nearer than 5 cm is left out. Nothing hides what is below the ground.
+///
+/// params   size and background count
+/// returns  the picture
+/// throws   as rendered(); InvalidInput (path "/angle_deg") for other angles
+[[nodiscard]] RgbaImage rendered_from(const StandingCamera& camera, const GlbScene& scene,
+                                      const PictureParams& params,
+                                      const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <set>
+#include <span>
 #include <string>
 
+#include "core/surface/codecs.h"
 #include "tests/api/support.h"
 
 namespace sporeprint::api::products_world_plots_test {
@@ -45,6 +49,38 @@ TEST_F(WorldPlotsTest, AreFilesWithWhatTheirJsonLists) {
     const std::string canonical = header(model, "Content-Location");
     EXPECT_EQ(header(ask(canonical), "ETag"), header(model, "ETag"));
     EXPECT_EQ(header(ask(canonical), "Cache-Status"), "sporeprint; hit");
+}
+
+TEST_F(WorldPlotsTest, HavePicturesFromTheirEdgeAndFromAbove) {
+    const std::string place =
+        world + "/y80d270/plot.png?size=4&texture_size=256&width=96&height=64";
+    std::set<std::string> tags;
+    for (const char* view : {"standing", "kneeling", "aslant", "top"}) {
+        const Response response = ask(place + "&view=" + view);
+        ASSERT_EQ(response.status, 200) << text_of(response);
+        EXPECT_EQ(header(response, "Content-Type"), "image/png");
+        const std::string bytes = text_of(response);
+        const Picture image = decoded_picture(
+            std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), "");
+        EXPECT_EQ(image.width, 96);
+        EXPECT_EQ(image.height, 64);
+        tags.insert(header(response, "ETag"));
+    }
+    EXPECT_EQ(tags.size(), 4U);
+    EXPECT_TRUE(names(ask(place + "&compress=meshopt"), "compress", ""));
+    EXPECT_TRUE(names(ask(place + "&view=below"), "view", "standing"));
+}
+
+TEST_F(WorldPlotsTest, ConsistOfLayersInOneOrder) {
+    const std::string place = world + "/y80d270/plot.glb?size=3&textures=none";
+    const Response trees = ask(place + "&layers=trees+ground");
+    ASSERT_EQ(trees.status, 200) << text_of(trees);
+    EXPECT_NE(header(trees, "Content-Location").find("layers=ground%2Btrees"), std::string::npos)
+        << header(trees, "Content-Location");
+    EXPECT_EQ(header(ask(place + "&layers=fungi+floor+trees+ground"), "ETag"),
+              header(ask(place), "ETag"));
+    EXPECT_TRUE(names(ask(place + "&layers=moss"), "layers", "ground, trees, floor and fungi"));
+    EXPECT_TRUE(names(ask(place + "&layers=fungi+fungi"), "layers", "twice"));
 }
 
 TEST_F(WorldPlotsTest, ChangeWithTheYearAndTheDay) {

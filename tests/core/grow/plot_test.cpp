@@ -65,6 +65,38 @@ TEST(Plot, NamesWhatItShows) {
     EXPECT_EQ(json.find("images"), nullptr);
 }
 
+TEST(Plot, ConsistsOfLayers) {
+    const PlotContent content = small_wood().content();
+    PlotOptions options = quick();
+    options.textures = Textures::none;
+    const auto names_of = [&](const PlotContent& of) {
+        std::set<std::string> names;
+        const Bytes file = joined(grow_plot(of, options, atlas(), {}, with_morphs()).glb);
+        for (const ReadNode& node : expect_scene(file).nodes) names.insert(node.name);
+        return names;
+    };
+    const std::set<std::string> whole = names_of(content);
+    std::set<std::string> together;
+    for (std::size_t layer = 0; layer < plot_layer_count; ++layer) {
+        options.layers.fill(false);
+        options.layers[layer] = true;
+        const std::set<std::string> own = names_of(content);
+        EXPECT_FALSE(own.empty()) << name(static_cast<PlotLayer>(layer));
+        together.insert(own.begin(), own.end());
+    }
+    EXPECT_EQ(together, whole);
+    // The layer of fungi, where none stands, is a file without meshes.
+    PlotContent winter = content;
+    winter.time += 100 * ticks_of_day;
+    const Value json =
+        json_chunk(joined(grow_plot(winter, options, atlas(), {}, with_morphs()).glb));
+    EXPECT_EQ(json.find("nodes")->items().size(), 1U);
+    for (const char* list : {"meshes", "materials", "buffers", "bufferViews", "accessors"})
+        EXPECT_EQ(json.find(list), nullptr) << list;
+    options.layers.fill(false);
+    EXPECT_THROW(static_cast<void>(grow_plot(content, options, atlas())), InvalidInput);
+}
+
 TEST(Plot, RepeatsBodiesAndLeavesByInstances) {
     PlotOptions options = quick();
     options.textures = Textures::none;

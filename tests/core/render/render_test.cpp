@@ -41,6 +41,21 @@ TEST(Render, ABallCoversADiscOfNineTenthsOfTheWidth) {
     EXPECT_EQ(pixel(image, 64, 64)[3], 255);
 }
 
+TEST(Render, FromAPlaceInTheSceneShowsWhatIsBeforeTheCamera) {
+    const Mesh mesh = ball(1.0F, {0.0F, 0.0F, -10.0F}, 128, 64);
+    PictureParams params = square(128);
+    const auto share = [&](const glm::dvec3& eye, const glm::dvec3& target, double angle = 20.0) {
+        return share_above(rendered_from({eye, target, angle}, scene_of(mesh), params), 127);
+    };
+    // A ball of radius 1 at distance 10 has a disc of tangent 0.1005; the picture reaches to 0.1763.
+    const double wanted = 3.14159 / 4.0 * (0.1005 / 0.1763) * (0.1005 / 0.1763);
+    EXPECT_NEAR(share({0, 0, 0}, {0, 0, -1}), wanted, 0.005);
+    EXPECT_NEAR(share({10, 0, -10}, {0, 0, -10}), wanted, 0.005) << "from the side";
+    EXPECT_NEAR(share({0, 10, -10 + 1e-3}, {0, 0, -10}), wanted, 0.005) << "from above";
+    EXPECT_EQ(share({0, 0, 0}, {0, 0, 1}), 0.0) << "it is behind the camera";
+    EXPECT_TRUE(names(refusal([&] { share({0, 0, 0}, {0, 0, 1}, 0.5); }), "/angle_deg"));
+}
+
 // Each pixel of a close-up of a wall much larger than its frame shows the wall.
 TEST(Render, ACloseUpShowsPartsOfTrianglesWithoutGaps) {
     const Mesh mesh = ball(1.0F, {0.0F, 2.0F, 0.0F}, 12, 6);
