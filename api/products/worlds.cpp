@@ -12,12 +12,15 @@
 #include "api/products/mix.h"
 #include "api/products/presets.h"
 #include "api/products/resource.h"
+#include "api/products/world_limits.h"
 #include "api/products/world_maps.h"
+#include "api/products/world_placements.h"
 #include "api/products/world_plots.h"
 #include "api/products/world_seasons.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/schema.h"
+#include "core/world/absence.h"
 #include "core/world/weather.h"
 
 namespace sporeprint::api {
@@ -86,6 +89,25 @@ struct YearParams {
 };
 static_assert(well_described<YearParams>());
 
+/// Returns the fungi of a world, and why those that cannot live in it do not.
+Value fungi_of(const WorldParams& params, const Atlas& atlas) {
+    Value list = Value::array();
+    std::vector<Problem> problems;
+    for (const std::string& id : species_in(params.fungi.species, "fungi.species", problems)) {
+        const AtlasEntry* const entry = atlas.find(id);
+        if (entry == nullptr) continue;
+        const Ecology& ecology = entry->species.ecology;
+        std::string why = reason_of_absence(ecology, params);
+        Value one = Value::object()
+                        .set("id", id)
+                        .set("guild", name(ecology.guild))
+                        .set("possible", why.empty());
+        if (!why.empty()) one.set("why_not", std::move(why));
+        list.push(std::move(one));
+    }
+    return list;
+}
+
 Value describe_world(const Context& context, const WorldSpec& spec, const std::string& version) {
     const std::string text = world_text(spec, *context.atlas, version),
                       folder = folder_of(Worlds::all) + text;
@@ -95,14 +117,18 @@ Value describe_world(const Context& context, const WorldSpec& spec, const std::s
         .set("v", version)
         .set("preset", spec.preset)
         .set("effective", write(spec.params))
+        .set("fungi", fungi_of(spec.params, *context.atlas))
         .set("years", Value(Value::Array{0, last_year}))
         .set("maps", map_list(context.responses, folder))
-        .set("links", Value::object()
-                          .set("self", context.responses.link(folder + ".json"))
-                          .set("weather", context.responses.link(folder + "/weather.json"))
-                          .set("season", context.responses.link(folder + "/season.json"))
-                          .set("plot", context.responses.link(folder + "/y80d270/plot.glb"))
-                          .set("schema", context.responses.link("/v1/worlds/schema")));
+        .set("links",
+             Value::object()
+                 .set("self", context.responses.link(folder + ".json"))
+                 .set("weather", context.responses.link(folder + "/weather.json"))
+                 .set("season", context.responses.link(folder + "/season.json"))
+                 .set("plot", context.responses.link(folder + "/y80d270/plot.glb"))
+                 .set("placements", context.responses.link(folder + "/y80d270/placements.csv"))
+                 .set("limits", context.responses.link(folder + "/y80d270/limits.json"))
+                 .set("schema", context.responses.link("/v1/worlds/schema")));
 }
 
 /// Returns a number with two digits behind its point.
@@ -315,6 +341,53 @@ constexpr Route routes[] = {
      .query_schema = plot_query_schema,
      .plan = plan_plot<PlotFile::json>,
      .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/plot.png",
+     .id = "picture_plot",
+     .summary = "A picture of a plot, from its edge or from above.",
+     .media_type = "image/png",
+     .query_schema = plot_picture_query_schema,
+     .plan = plan_plot<PlotFile::png>,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/placements.csv",
+     .id = "get_placements",
+     .summary = "Where trees, dead trunks and fruit bodies stand on a day, a line each.",
+     .media_type = "text/csv; charset=utf-8",
+     .query_schema = placement_query_schema,
+     .plan = plan_placements<PlacementFile::csv>,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/placements.json",
+     .id = "list_placements",
+     .summary = "The same as JSON.",
+     .media_type = json,
+     .response_schema = "world_placements",
+     .query_schema = placement_query_schema,
+     .plan = plan_placements<PlacementFile::json>,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/placements.bin",
+     .id = "get_binary_placements",
+     .summary = "The same as a table of 88 bytes for each.",
+     .media_type = "application/octet-stream",
+     .query_schema = placement_query_schema,
+     .plan = plan_placements<PlacementFile::bin>,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{time}/limits.json",
+     .id = "get_limits",
+     .summary = "What keeps each species from fruiting at a place on a day.",
+     .media_type = json,
+     .response_schema = "world_limits",
+     .query_schema = limits_query_schema,
+     .plan = plan_limits,
+     .has_version_in_path = true},
 };
 
 void add_links(Value& links, const Atlas&) {
@@ -356,6 +429,8 @@ void add_schemas(Value& schemas, const Atlas&) {
                                 {"temperature_c", number},
                                 {"potential_evaporation_mm", number},
                                 {"soil_water_mm", number}});
+    Value fungus = objects({{"id", text}, {"guild", text}, {"possible", typed("boolean")}});
+    fungus.find("properties")->set("why_not", text);
     schemas.set("world_params", as_written(schema<WorldParams>()))
         .set("world_list",
              objects({{"worlds",
@@ -365,12 +440,15 @@ void add_schemas(Value& schemas, const Atlas&) {
                                            {"v", text},
                                            {"preset", text},
                                            {"effective", reference("schemas/world_params")},
+                                           {"fungi", list_of(std::move(fungus))},
                                            {"years", list_of(whole)},
                                            {"maps", map_of(text)},
                                            {"links", map_of(text)}}))
         .set("world_map", map_schema())
         .set("world_season", season_schema())
         .set("world_plot", plot_schema())
+        .set("world_placements", placement_schema())
+        .set("world_limits", limits_schema())
         .set("weather", objects({{"world", text},
                                  {"year", whole},
                                  {"days", objects({{"rain_mm", days},

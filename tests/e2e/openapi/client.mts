@@ -233,6 +233,19 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await client.HEAD("/v1/worlds/{world}/{time}/plot.json", plot);
     const { data: onIt } = await client.GET("/v1/worlds/{world}/{time}/plot.json", plot);
     if (onIt?.bbox[2] !== 2) throw new Error("the plot is not described");
+    const seen = { params: { path: plot.params.path, query: { size: 4, texture_size: 256, width: 96, height: 64, view: "kneeling" } } } as const;
+    await both(client.HEAD("/v1/worlds/{world}/{time}/plot.png", seen), client.GET("/v1/worlds/{world}/{time}/plot.png", { ...seen, ...binary }));
+    const placed = { params: { path: { world: "meadow,extent=256", time: "y80d270" }, query: { bbox: "-8,-8,8,8", kinds: "tree+fungus" } } };
+    const text = { parseAs: "text" } as const;
+    await both(client.HEAD("/v1/worlds/{world}/{time}/placements.csv", placed), client.GET("/v1/worlds/{world}/{time}/placements.csv", { ...placed, ...text }));
+    await both(client.HEAD("/v1/worlds/{world}/{time}/placements.bin", placed), client.GET("/v1/worlds/{world}/{time}/placements.bin", { ...placed, ...binary }));
+    await client.HEAD("/v1/worlds/{world}/{time}/placements.json", placed);
+    const { data: list } = await client.GET("/v1/worlds/{world}/{time}/placements.json", placed);
+    if (list?.count !== list?.placements.length) throw new Error("the rows are not counted");
+    const spot = { params: { path: { world: "meadow,extent=256", time: "y80d270" }, query: { x: 3, y: -4.5 } } };
+    await client.HEAD("/v1/worlds/{world}/{time}/limits.json", spot);
+    const { data: limits } = await client.GET("/v1/worlds/{world}/{time}/limits.json", spot);
+    if (!limits?.species[0]?.why) throw new Error("it is not said what limits a species");
 
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {

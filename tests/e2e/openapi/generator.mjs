@@ -45,7 +45,10 @@ export class Generator {
         if (name === "lod" && schema.type === "string") return dice.pick(["0", "3"]);
         if (name === "bbox") return dice.pick(["", "-32,-16,32,16", "0,0,1,100.5"]);
         if ((name === "x" || name === "y") && schema.type === "number") return dice.pick([0, -7.5, 20]);
+        if (name === "species" && schema.type === "string") return dice.pick(["", "marasmius_oreades"]); // of a meadow
         if (name === "species") return this.someSpecies();
+        if (name === "layers") return dice.pick(["", "fungi", "ground+trees"]);
+        if (name === "kinds") return dice.pick(["", "tree", "fungus+log"]);
         if (name === "photo") return dice.pick(this.lists.photos);
         if (name === "lock") return schema.type === "array" ? ["surface.cap", "size"].slice(dice.below(3)) : dice.pick(["surface.cap", "size,surface.stem", "deformation.bend_deg"]);
         if (schema.type === "array") {
@@ -111,7 +114,7 @@ export class Generator {
         }
         if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
-        if (name === "world" && /season|plot/.test(path)) return "meadow,extent=256"; // others take seconds
+        if (name === "world" && /season|plot|placements|limits|maps/.test(path)) return "meadow,extent=256"; // others take seconds
         if (name === "world") {
             const texts = [",extent=256", ",seed=7,extent=256", ",climate.rain=600,climate.latitude_deg=-40"];
             return dice.pick(lists.worlds) + dice.pick(texts);
