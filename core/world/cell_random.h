@@ -35,6 +35,21 @@ class CellRandom : public Random {
     }
 };
 
+/// Returns the number of a Poisson distribution that belongs to a uniform draw.
+///
+/// mean  at most 20
+/// none  e^-mean, which many draws share
+[[nodiscard]] inline int poisson(double mean, double none, double draw, int most) {
+    double chance = none, sum = chance;
+    int number = 0;
+    while (draw >= sum && number < most) {
+        ++number;
+        chance *= mean / number;
+        sum += chance;
+    }
+    return number;
+}
+
 /// Returns an identifier that two others and a number determine.
 [[nodiscard]] inline std::uint64_t mixed(std::uint64_t first, std::uint64_t second,
                                          std::uint32_t number) {

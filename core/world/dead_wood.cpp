@@ -55,6 +55,8 @@ DeadWood trunk_of(const Stand& stand, const StandTree& tree, const FallSite& sit
 
 }  // namespace
 
+double longest_trunk(const Stand& stand) { return trunk_share * greatest_height(stand); }
+
 double decay_rate(const StandParams& params, const TreeEcology& ecology) {
     return ecology.decay / std::max(1.0, params.dead_wood);
 }

@@ -19,6 +19,9 @@ struct FallSite {
 
 using FallSiteAt = std::function<FallSite(WorldPoint)>;
 
+/// Returns the length that no trunk of a stand exceeds, metres.
+[[nodiscard]] double longest_trunk(const Stand& stand);
+
 /// Returns k of the mass e^(-k t) of the dead trunks of a kind, per year.
 [[nodiscard]] double decay_rate(const StandParams& params, const TreeEcology& ecology);
 

@@ -7,6 +7,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
+#include "core/world/cell_random.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
@@ -41,20 +42,15 @@ double weibull(double uniform, double mean, double shape, double mean_of_one) {
     return mean / mean_of_one * power(-logarithm(1.0 - uniform), 1.0 / shape);
 }
 
-WorldTime time_after(WorldTime begin, double years) {
-    return begin + static_cast<WorldTime>(std::floor(years * ticks_of_year));
+/// How far heights of a kind differ from their mean, as a share of it.
+constexpr double height_variation = 0.18;
+
+double mean_height(const Stand& stand, const StandKind& kind) {
+    return stand.params.height * kind.ecology.height / standard_height;
 }
 
-/// Returns the number of a Poisson distribution that belongs to a uniform draw.
-int poisson(double uniform, double mean) {
-    double chance = exponential(-mean), sum = chance;
-    int number = 0;
-    while (uniform >= sum && number < 64) {
-        ++number;
-        chance *= mean / number;
-        sum += chance;
-    }
-    return number;
+WorldTime time_after(WorldTime begin, double years) {
+    return begin + static_cast<WorldTime>(std::floor(years * ticks_of_year));
 }
 
 std::int32_t floor_div(std::int32_t number, std::int32_t by) {
@@ -157,9 +153,10 @@ WorldTime reaches_at(const Seedling& one, double distance) {
 /// The seedlings of a block and of the rim that they depend on.
 class Nursery {
   public:
-    Nursery(const Stand& stand, const SiteAt& site, CellIndex block)
+    Nursery(const Stand& stand, const SiteAt& site, const SiteAt& dim, CellIndex block)
         : stand_(stand),
           site_(site),
+          dim_(dim),
           core_(cells_round(block, 0.0, nursery_units)),
           cells_(cells_round(block, apron, nursery_units)),
           patch_cells_(cells_round(block, apron, patch_units).grown(2)) {
@@ -232,11 +229,11 @@ class Nursery {
         return *std::prev(std::upper_bound(patch.storms.begin(), patch.storms.end(), time));
     }
 
+    /// Returns the patch of a place in a square.
     [[nodiscard]] std::size_t owner_of(CellIndex cell, WorldPoint place) const {
         std::size_t owner = 0;
         std::int64_t nearest = INT64_MAX;
-        for (std::size_t k = 0; k < 25; ++k) {
-            const std::size_t patch = patch_cells_.index(neighbour(cell, k));
+        for (const std::size_t patch : owners_[cells_.index(cell)]) {
             const std::int64_t distance = square_distance(place, patches_[patch].seed);
             if (distance < nearest) {
                 nearest = distance;
@@ -255,7 +252,9 @@ class Nursery {
     }
 
     void add(CellIndex cell, std::size_t owner, std::uint32_t cohort, std::vector<Seedling>& out) {
-        constexpr double side = static_cast<double>(nursery_units) / units_of_metre;
+        constexpr double side = static_cast<double>(nursery_units) / units_of_metre,
+                         mean = seedling_density * side * side;
+        static const double none = exponential(-mean);
         const Patch& patch = patches_[owner];
         // Which of the patches round the square it is, and which of its cohorts.
         const CellIndex first = neighbour(cell, 0);
@@ -263,8 +262,8 @@ class Nursery {
             static_cast<std::uint32_t>((patch.cell.y - first.y) * 5 + patch.cell.x - first.x);
         const std::uint32_t object = (cohort * 32 + which) * 64;
         Random number(stand_.seed, purposes::seedlings, object, cell);
-        const int count = poisson(number.uniform(), seedling_density * side * side);
-        for (int i = 1; i <= std::min(count, 63); ++i) {
+        const int count = poisson(mean, none, number.uniform(), 63);
+        for (int i = 1; i <= count; ++i) {
             Random random(stand_.seed, purposes::seedlings, object + static_cast<std::uint32_t>(i),
                           cell);
             Seedling one;
@@ -287,9 +286,14 @@ class Nursery {
 
     /// Chooses the kind of a tree by what its place has to give. Returns false if no tree grows there.
     bool choose_kind(StandTree& tree, double draw) const {
-        const Site site = site_(tree.at);
+        bool is_dim = static_cast<bool>(dim_);
+        Site site = is_dim ? dim_(tree.at) : site_(tree.at);
         double sum = 0.0;
         for (std::size_t i = 0; i < stand_.kinds.size(); ++i) {
+            if (is_dim && !has_enough(stand_.kinds[i].ecology.light, site.light)) {
+                site = site_(tree.at);
+                is_dim = false;
+            }
             sum += stand_.kinds[i].share * suitability(stand_.kinds[i].ecology, site);
             if (draw < sum) {
                 tree.kind = static_cast<std::uint8_t>(i);
@@ -297,6 +301,11 @@ class Nursery {
             }
         }
         return false;
+    }
+
+    /// Returns whether nothing changes for a kind where there is more light.
+    static bool has_enough(const ShareResponse& response, double light) {
+        return light >= response.prefers.from && response.prefers.to >= 1.0;
     }
 
     static double suitability(const TreeEcology& ecology, const Site& site) {
@@ -317,14 +326,14 @@ class Nursery {
 
     /// Draws the life of a seedling, without its neighbours.
     void grow(Seedling& one, Random& random, WorldTime storm, WorldTime next_storm) const {
-        const TreeEcology& ecology = stand_.kinds[one.tree.kind].ecology;
+        const StandKind& kind = stand_.kinds[one.tree.kind];
+        const TreeEcology& ecology = kind.ecology;
         const double birth = random.uniform(), vigour = random.uniform(),
                      height = random.symmetric(), age = random.uniform();
         const std::uint32_t high = random.bits(), low = random.bits();
         one.tree.id = std::uint64_t{high} << 32 | low;
         one.tree.born = time_after(storm, birth * birth_years);
-        one.tree.height =
-            stand_.params.height * ecology.height / standard_height * (1.0 + 0.18 * height);
+        one.tree.height = mean_height(stand_, kind) * (1.0 + height_variation * height);
         const WorldTime old =
             time_after(one.tree.born, weibull(age, ecology.life, age_shape, age_mean));
         one.tree.by_storm = next_storm <= old;
@@ -334,7 +343,7 @@ class Nursery {
     }
 
     const Stand& stand_;
-    const SiteAt& site_;
+    const SiteAt &site_, &dim_;
     CellBox core_, cells_, patch_cells_;
     std::vector<Patch> patches_;
     std::vector<std::vector<std::size_t>> owners_;
@@ -351,7 +360,7 @@ struct Rivalry {
 class Competition {
   public:
     explicit Competition(std::vector<Seedling> seedlings) : seedlings_(std::move(seedlings)) {
-        sort_into_cells();
+        sort_into_groups();
         find_rivals();
     }
 
@@ -371,29 +380,59 @@ class Competition {
     }
 
   private:
+    /// The seedlings of one cohort in a square of the greatest zone. Most groups never live at one time.
+    struct Group {
+        CellIndex cell;
+        std::uint32_t cohort = 0;
+        std::size_t begin = 0, end = 0;
+        WorldTime born = INT32_MAX, died = INT32_MIN;  ///< of the first, and of the last
+    };
+
     static CellIndex cell_of(WorldPoint place) {
         constexpr auto side = static_cast<std::int32_t>(greatest_zone * units_of_metre);
         return {floor_div(place.x, side), floor_div(place.y, side)};
     }
 
-    /// Orders seedlings by squares of the greatest zone, so that neighbours are in nine of them.
-    void sort_into_cells() {
-        std::sort(seedlings_.begin(), seedlings_.end(), [](const Seedling& a, const Seedling& b) {
-            const CellIndex cell_a = cell_of(a.tree.at), cell_b = cell_of(b.tree.at);
-            if (cell_a.y != cell_b.y) return cell_a.y < cell_b.y;
-            if (cell_a.x != cell_b.x) return cell_a.x < cell_b.x;
-            return a.tree.id < b.tree.id;
+    /// Orders seedlings by squares of the greatest zone, so that neighbours are in nine of them, and by cohorts.
+    void sort_into_groups() {
+        struct Key {
+            CellIndex cell;
+            std::uint32_t cohort;
+            std::uint32_t index;
+        };
+        std::vector<Key> keys;
+        keys.reserve(seedlings_.size());
+        for (const Seedling& one : seedlings_)
+            keys.push_back(
+                {cell_of(one.tree.at), one.cohort, static_cast<std::uint32_t>(keys.size())});
+        std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+            if (a.cell.y != b.cell.y) return a.cell.y < b.cell.y;
+            if (a.cell.x != b.cell.x) return a.cell.x < b.cell.x;
+            return a.cohort != b.cohort ? a.cohort < b.cohort : a.index < b.index;
         });
+        std::vector<Seedling> sorted;
+        sorted.reserve(seedlings_.size());
+        for (const Key& key : keys) {
+            const Seedling& one = seedlings_[key.index];
+            if (groups_.empty() || groups_.back().cell != key.cell ||
+                groups_.back().cohort != key.cohort)
+                groups_.push_back({key.cell, key.cohort, sorted.size(), sorted.size()});
+            Group& group = groups_.back();
+            ++group.end;
+            group.born = std::min(group.born, one.tree.born);
+            group.died = std::max(group.died, one.tree.died);
+            sorted.push_back(one);
+        }
+        seedlings_ = std::move(sorted);
     }
 
-    /// Returns the first seedling in or behind a square.
+    /// Returns the first group in or behind a square.
     [[nodiscard]] std::size_t first_in(CellIndex cell) const {
         const auto found =
-            std::partition_point(seedlings_.begin(), seedlings_.end(), [&](const Seedling& one) {
-                const CellIndex other = cell_of(one.tree.at);
-                return other.y < cell.y || (other.y == cell.y && other.x < cell.x);
+            std::partition_point(groups_.begin(), groups_.end(), [&](const Group& one) {
+                return one.cell.y < cell.y || (one.cell.y == cell.y && one.cell.x < cell.x);
             });
-        return static_cast<std::size_t>(found - seedlings_.begin());
+        return static_cast<std::size_t>(found - groups_.begin());
     }
 
     static bool is_stronger(const Seedling& a, const Seedling& b) {
@@ -401,19 +440,33 @@ class Competition {
     }
 
     void find_rivals() {
-        for (std::size_t i = 0; i < seedlings_.size();) {
-            const CellIndex cell = cell_of(seedlings_[i].tree.at);
+        for (std::size_t i = 0; i < groups_.size();) {
+            const CellIndex cell = groups_[i].cell;
             const std::size_t end = first_in({cell.x + 1, cell.y});
             // Each pair once: those behind in the order are to the east in this row, or in the next row.
             const std::size_t row_end = first_in({cell.x + 2, cell.y}),
                               next = first_in({cell.x - 1, cell.y + 1}),
                               next_end = first_in({cell.x + 2, cell.y + 1});
             for (std::size_t one = i; one < end; ++one) {
-                for (std::size_t other = one + 1; other < row_end; ++other) add(one, other);
-                for (std::size_t other = next; other < next_end; ++other) add(one, other);
+                add_within(groups_[one]);
+                for (std::size_t other = one + 1; other < row_end; ++other)
+                    add_between(groups_[one], groups_[other]);
+                for (std::size_t other = next; other < next_end; ++other)
+                    add_between(groups_[one], groups_[other]);
             }
             i = end;
         }
+    }
+
+    void add_within(const Group& group) {
+        for (std::size_t one = group.begin; one < group.end; ++one)
+            for (std::size_t other = one + 1; other < group.end; ++other) add(one, other);
+    }
+
+    void add_between(const Group& a, const Group& b) {
+        if (a.born >= b.died || b.born >= a.died) return;
+        for (std::size_t one = a.begin; one < a.end; ++one)
+            for (std::size_t other = b.begin; other < b.end; ++other) add(one, other);
     }
 
     void add(std::size_t one, std::size_t other) {
@@ -449,13 +502,22 @@ class Competition {
     }
 
     std::vector<Seedling> seedlings_;
+    std::vector<Group> groups_;
     std::vector<Rivalry> within_, among_;
 };
 
 }  // namespace
 
-std::vector<StandTree> trees_of(const Stand& stand, const SiteAt& site, CellIndex block) {
-    Nursery nursery(stand, site, block);
+double greatest_height(const Stand& stand) {
+    double greatest = 0.0;
+    for (const StandKind& kind : stand.kinds)
+        greatest = std::max(greatest, mean_height(stand, kind));
+    return greatest * (1.0 + height_variation);
+}
+
+std::vector<StandTree> trees_of(const Stand& stand, const SiteAt& site, CellIndex block,
+                                const SiteAt& dim) {
+    Nursery nursery(stand, site, dim, block);
     std::vector<StandTree> trees = Competition(nursery.seedlings()).survivors();
     std::erase_if(trees, [&](const StandTree& tree) {
         return block_at(tree.at) != block || tree.died <= begin_of_trees ||

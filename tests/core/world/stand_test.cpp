@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -188,6 +189,42 @@ TEST(Stand, HasTheKindsThatSuitTheirPlaces) {
     EXPECT_EQ(kinds.size(), 2U);
     const auto under_water = [](WorldPoint) { return Site{.wetness = 2.0}; };
     EXPECT_TRUE(trees_of(stand, under_water, {0, 0}).empty());
+}
+
+TEST(Stand, IsTheSameWhereLightIsKnownOnlyIfItDecides) {
+    Stand stand = stand_of(3, 0.6);
+    stand.kinds[0].ecology.light = {{0.01, 1.0}, {0.3, 1.0}};
+    stand.kinds[0].share = 0.5;
+    stand.kinds.push_back({"birch", 0.3, {}});
+    stand.kinds[1].ecology.light = {{0.1, 1.0}, {0.7, 1.0}};
+    stand.kinds.push_back({"fern", 0.2, {}});
+    stand.kinds[2].ecology.light = {{0.0, 0.9}, {0.0, 0.4}};
+    int called = 0, dim = 0;
+    const auto light_at = [](WorldPoint at) { return 0.5 + 0.5 * ((at.x >> 16 & 15) / 15.0); };
+    const SiteAt site = [&](WorldPoint at) {
+        ++called;
+        return Site{.light = light_at(at)};
+    };
+    const std::vector<StandTree> trees = trees_of(stand, site, {1, -1});
+    const int before = std::exchange(called, 0);
+    EXPECT_EQ(trees_of(stand, site, {1, -1},
+                       [&](WorldPoint at) {
+                           ++dim;
+                           return Site{.light = 0.5 * light_at(at)};
+                       }),
+              trees);
+    EXPECT_EQ(dim, before);
+    EXPECT_LT(called, before);
+    EXPECT_GT(called, 0);
+}
+
+TEST(Stand, HasNoTreeAboveTheGreatestHeight) {
+    const Stand stand = stand_of(3);
+    double highest = 0.0;
+    for (const StandTree& tree : trees_of(stand, everywhere, {0, 0}))
+        highest = std::max(highest, tree.height);
+    EXPECT_LE(highest, greatest_height(stand));
+    EXPECT_GT(highest, 0.95 * greatest_height(stand));
 }
 
 TEST(Stand, HasAGladeAndALoneTree) {
