@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/math/elementary.h"
 #include "core/problems.h"
@@ -71,6 +72,31 @@ Sample sample_at(std::size_t azimuth, double cells, double cell, std::ptrdiff_t 
     return out;
 }
 
+/// The nodes round a place, and their weights per unit of what is stored.
+struct Corners {
+    Corners(const Grid& grid, double x, double y) {
+        const auto along = [&](double metres) {
+            return std::clamp((metres - grid.origin) / grid.cell, 0.0, grid.side - 1.0);
+        };
+        const double column = along(x), row = along(y);
+        const int i = std::min(static_cast<int>(column), grid.side - 2);
+        const int j = std::min(static_cast<int>(row), grid.side - 2);
+        const double t = column - i, u = row - j;
+        const std::size_t south = grid.index(i, j), north = grid.index(i, j + 1);
+        weights = {(1.0 - t) * (1.0 - u) / 255.0, t * (1.0 - u) / 255.0, (1.0 - t) * u / 255.0,
+                   t * u / 255.0};
+        nodes = {south, south + 1, north, north + 1};
+    }
+    [[nodiscard]] double sky(const Horizon& horizon) const {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < nodes.size(); ++k) sum += weights[k] * horizon.sky[nodes[k]];
+        return std::min(1.0, sum);
+    }
+
+    std::array<double, 4> weights{};
+    std::array<std::size_t, 4> nodes{};
+};
+
 /// Returns the share of the sun that is above a horizon; both are sines of heights.
 double visible_share(double sun, double horizon) {
     return std::clamp((sun - horizon) / sun_height, 0.0, 1.0);
@@ -86,7 +112,8 @@ std::size_t Horizon::bytes() const {
     return sizeof(*this) + sines.size() * sizeof(sines[0]) + sky.size();
 }
 
-Horizon horizon_of(const Grid& grid, std::span<const std::int32_t> heights) {
+Horizon horizon_of(const Grid& grid, std::span<const std::int32_t> heights,
+                   const Parallel& parallel) {
     require_values(grid, heights.size());
     if (grid.side < 5 || grid.side % 2 == 0)
         throw InvalidInput("", "a horizon needs an odd number of nodes a side, at least 5");
@@ -104,10 +131,9 @@ Horizon horizon_of(const Grid& grid, std::span<const std::int32_t> heights) {
             cells *= distance_ratio;
         }
     }
-    std::vector<float> rise(side);
-    std::vector<float> sums(side);
-    for (int row = 0; row < ground.side; ++row) {
-        std::fill(sums.begin(), sums.end(), 0.0F);
+    const auto set_row = [&](int row) {
+        std::vector<float> rise(side);
+        std::vector<float> sums(side);
         const float* const here = ground.row(row);
         const std::size_t first = out.grid.index(0, row);
         for (std::size_t azimuth = 0; azimuth < horizon_azimuths; ++azimuth) {
@@ -131,32 +157,29 @@ Horizon horizon_of(const Grid& grid, std::span<const std::int32_t> heights) {
         for (std::size_t i = 0; i < side; ++i)
             out.sky[first + i] =
                 quantised_share(1.0 - static_cast<double>(sums[i]) / horizon_azimuths);
-    }
+    };
+    constexpr int stripe = 16;
+    std::vector<std::function<void()>> tasks;
+    for (int first = 0; first < ground.side; first += stripe)
+        tasks.emplace_back([&, first] {
+            for (int row = first; row < std::min(first + stripe, ground.side); ++row) set_row(row);
+        });
+    parallel(tasks);
     return out;
 }
 
 LocalHorizon horizon_at(const Horizon& horizon, double x, double y) {
-    const Grid& grid = horizon.grid;
-    const auto along = [&](double metres) {
-        return std::clamp((metres - grid.origin) / grid.cell, 0.0, grid.side - 1.0);
-    };
-    const double column = along(x), row = along(y);
-    const int i = std::min(static_cast<int>(column), grid.side - 2);
-    const int j = std::min(static_cast<int>(row), grid.side - 2);
-    const double t = column - i, u = row - j;
-    const std::size_t south = grid.index(i, j), north = grid.index(i, j + 1);
-    const std::array<double, 4> weights = {(1.0 - t) * (1.0 - u) / 255.0, t * (1.0 - u) / 255.0,
-                                           (1.0 - t) * u / 255.0, t * u / 255.0};
-    const std::array<std::size_t, 4> nodes = {south, south + 1, north, north + 1};
+    const Corners corners(horizon.grid, x, y);
     LocalHorizon out;
-    out.sky = 0.0;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
+    for (std::size_t k = 0; k < corners.nodes.size(); ++k)
         for (std::size_t azimuth = 0; azimuth < horizon_azimuths; ++azimuth)
-            out.sines[azimuth] += weights[k] * horizon.sines[nodes[k]][azimuth];
-        out.sky += weights[k] * horizon.sky[nodes[k]];
-    }
-    out.sky = std::min(1.0, out.sky);
+            out.sines[azimuth] += corners.weights[k] * horizon.sines[corners.nodes[k]][azimuth];
+    out.sky = corners.sky(horizon);
     return out;
+}
+
+double sky_at(const Horizon& horizon, double x, double y) {
+    return Corners(horizon.grid, x, y).sky(horizon);
 }
 
 SunDay sun_of(double latitude, int day) {

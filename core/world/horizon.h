@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/images.h"
 #include "core/world/ground.h"
 #include "core/world/height_field.h"
 
@@ -28,13 +29,15 @@ struct Horizon {
 /// Computes the horizon of the nodes of a ground, each from 18 places in 16 directions whose distances grow from 1 to 86
 /// cells of the horizon. Beyond the border the ground is as high as at it.
 ///
-/// grid     side N, odd and at least 5
-/// heights  N*N heights in 1/height_units m
-/// returns  sines of the angles of the horizon, and 1 minus their mean: the share of the sky by solid angle
+/// grid      side N, odd and at least 5
+/// heights   N*N heights in 1/height_units m
+/// parallel  runs stripes of rows
+/// returns   sines of the angles of the horizon, and 1 minus their mean: the share of the sky by solid angle
 /// throws   InvalidInput if there are not N*N heights or N is another number
 /// source   [Dozier1990] for the horizon by directions
 /// cost     30 ms for 513^2 heights
-[[nodiscard]] Horizon horizon_of(const Grid& grid, std::span<const std::int32_t> heights);
+[[nodiscard]] Horizon horizon_of(const Grid& grid, std::span<const std::int32_t> heights,
+                                 const Parallel& parallel = in_turn);
 
 /// The horizon at a place.
 struct LocalHorizon {
@@ -46,6 +49,9 @@ struct LocalHorizon {
 ///
 /// x, y  metres from the centre of the world
 [[nodiscard]] LocalHorizon horizon_at(const Horizon& horizon, double x, double y);
+
+/// Returns the share of the sky that is open above a place, with the bits of horizon_at().
+[[nodiscard]] double sky_at(const Horizon& horizon, double x, double y);
 
 /// The sun at one moment: a unit vector towards it, and the strength of its light.
 struct SunPosition {

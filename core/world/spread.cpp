@@ -19,6 +19,9 @@ namespace {
 /// Share of the spores above a cell that goes straight on, and to each side of that.
 constexpr double straight_share = 0.9, side_share = 0.05;
 
+/// Fewer spores than this land all at once.
+constexpr double least_passing = 1e-100;
+
 /// Rain takes up this much of the spores on a cell for each metre that its water carries them, when that is little.
 constexpr double wash_per_metre = 0.05;
 
@@ -31,10 +34,7 @@ constexpr double founder_area = 100.0, founder_square = 160.0;
 /// Share of founders that are there from the first year on, in 1/256.
 constexpr std::uint32_t early_founders = 154;
 
-/// Fewer spores than this land all at once.
-constexpr double least_passing = 1e-100;
-
-/// Cells beyond the border in the array of spores in the air: as far as winds reach upwind.
+/// Cells beyond the border in a row of spores in the air: as far as winds reach upwind.
 constexpr int margin = 2;
 
 constexpr double factor_of(std::uint8_t stored) { return 0.5 + stored / 255.0; }
@@ -43,7 +43,8 @@ std::uint8_t quantised_share(double share) {
     return static_cast<std::uint8_t>(std::clamp(std::floor(share * 255.0 + 0.5), 0.0, 255.0));
 }
 
-void transpose(int side, std::span<const double> from, std::span<double> to) {
+template <class Cell>
+void transpose(int side, std::span<const Cell> from, std::span<Cell> to) {
     const auto n = static_cast<std::size_t>(side);
     constexpr std::size_t tile = 8;
     for (std::size_t row = 0; row < n; row += tile)
@@ -76,46 +77,122 @@ double way_length(bool is_diagonal) {
                        : straight_share + 2.0 * side_share * std::sqrt(2.0);
 }
 
-/// The cover of a species, from one step to the next.
+/// A row of cells and the spores that a wind carries over it; of the rows upwind, the cells where those that come from
+/// there are taken up.
+struct WindRow {
+    const std::uint8_t* wind;   ///< by cell: which of the factors of the speed
+    const SporeLanes* carried;  ///< by factor: share of its spores that this wind carries
+    const SporeLanes* passing;  ///< by factor: share of spores above it that do not land
+    const SporeLanes* emitted;  ///< by cell
+    const SporeLanes *straight, *one_side, *other_side;
+    SporeLanes *passed, *landed;  ///< set, and added to
+};
+
+/// Blows spores over the cells of a row.
+void blow_over(const WindRow& row, std::size_t cells) {
+    for (std::size_t i = 0; i < cells; ++i) {
+        const SporeLanes& carried = row.carried[row.wind[i]];
+        const SporeLanes& passing = row.passing[row.wind[i]];
+        // Sums of their own, so that compilers see that no lane depends on another.
+        SporeLanes passed, landed = row.landed[i];
+        for (std::size_t lane = 0; lane < spore_lanes; ++lane) {
+            const double air = row.emitted[i].of[lane] * carried.of[lane] +
+                               straight_share * row.straight[i].of[lane] +
+                               side_share * (row.one_side[i].of[lane] + row.other_side[i].of[lane]);
+            // Less would become denormal numbers, with which processors are slow.
+            const double share = air > least_passing ? passing.of[lane] : 0.0;
+            passed.of[lane] = share * air;
+            landed.of[lane] += air - passed.of[lane];
+        }
+        row.passed[i] = passed;
+        row.landed[i] = landed;
+    }
+}
+
+/// Lets rain carry spores downhill. Returns those that leave the world.
+///
+/// water  as many zeros as there are cells
+SporeLanes wash_down(const WashGraph& wash, std::span<SporeLanes> deposit,
+                     std::span<SporeLanes> water) {
+    SporeLanes gone;
+    const WashGraph::Way* way = wash.ways.data();
+    const WashGraph::Way* const ways = way;
+    for (const WashGraph::Stop& stop : wash.stops) {
+        const WashGraph::Way* const end = ways + stop.end;
+        SporeLanes lying = deposit[stop.cell], leaving = water[stop.cell];
+        for (std::size_t lane = 0; lane < spore_lanes; ++lane) {
+            const double taken = lying.of[lane] * stop.washed;
+            const double in_water = leaving.of[lane] + taken;
+            leaving.of[lane] = in_water * stop.leaving;
+            lying.of[lane] += (in_water - leaving.of[lane]) - taken;
+        }
+        deposit[stop.cell] = lying;
+        if (way == end)
+            for (std::size_t lane = 0; lane < spore_lanes; ++lane)
+                gone.of[lane] += leaving.of[lane];
+        for (; way < end; ++way) {
+            SporeLanes there = water[way->to];
+            for (std::size_t lane = 0; lane < spore_lanes; ++lane)
+                there.of[lane] += leaving.of[lane] * way->share;
+            water[way->to] = there;
+        }
+    }
+    return gone;
+}
+
+/// The cover of some species, from one step to the next.
 class Cover {
   public:
-    Cover(const SpreadGround& ground, const SporeHabit& spores, std::span<const double> suitability)
+    Cover(const SpreadGround& ground, std::span<const Spreading> species,
+          std::span<const SporeHabit> spores)
         : fall_(ground, spores),
-          suitability_(suitability),
-          cover_(suitability.size()),
-          source_(suitability.size()),
-          deposit_(suitability.size()) {}
+          suitability_(ground.grid.nodes()),
+          cover_(ground.grid.nodes()),
+          source_(ground.grid.nodes()),
+          deposit_(ground.grid.nodes()) {
+        for (std::size_t lane = 0; lane < species.size(); ++lane)
+            for (std::size_t i = 0; i < suitability_.size(); ++i)
+                suitability_[i].of[lane] = species[lane].suitability[i];
+    }
 
-    void found(std::size_t cell, double share) {
-        if (suitability_[cell] > 0.0) cover_[cell] = std::max(cover_[cell], share);
+    void found(std::size_t lane, std::size_t cell, double share) {
+        double& cover = cover_[cell].of[lane];
+        if (suitability_[cell].of[lane] > 0.0) cover = std::max(cover, share);
         is_empty_ = false;
     }
 
     /// Goes on by some years, at most ten.
     void step(int years) {
         if (is_empty_) return;
-        const double fives = years / 5.0;
-        for (std::size_t i = 0; i < cover_.size(); ++i) source_[i] = suitability_[i] * cover_[i];
+        for (std::size_t i = 0; i < cover_.size(); ++i)
+            for (std::size_t lane = 0; lane < spore_lanes; ++lane)
+                source_[i].of[lane] = suitability_[i].of[lane] * cover_[i].of[lane];
         static_cast<void>(fall_.fall(source_, deposit_));
+        const double fives = years / 5.0;
         for (std::size_t i = 0; i < cover_.size(); ++i) {
-            const double x = fives * establishment_rate * deposit_[i] * suitability_[i];
-            // 1 - e^(-x) up to a tenth, by the first terms of the series of e^x.
-            const double arrived = 1.0 - 1.0 / (1.0 + x * (1.0 + 0.5 * x));
-            const double gained = std::min(1.0, arrived + fives * growth * source_[i]);
-            cover_[i] += (1.0 - cover_[i]) * gained - fives * loss * cover_[i];
+            SporeLanes cover = cover_[i];
+            for (std::size_t lane = 0; lane < spore_lanes; ++lane) {
+                const double x =
+                    fives * establishment_rate * deposit_[i].of[lane] * suitability_[i].of[lane];
+                // 1 - e^(-x) up to a tenth, by the first terms of the series of e^x.
+                const double arrived = 1.0 - 1.0 / (1.0 + x * (1.0 + 0.5 * x));
+                const double gained = std::min(1.0, arrived + fives * growth * source_[i].of[lane]);
+                cover.of[lane] += (1.0 - cover.of[lane]) * gained - fives * loss * cover.of[lane];
+            }
+            cover_[i] = cover;
         }
     }
 
-    [[nodiscard]] std::vector<std::uint8_t> quantised() const {
+    [[nodiscard]] std::vector<std::uint8_t> quantised(std::size_t lane) const {
         std::vector<std::uint8_t> out(cover_.size());
-        std::transform(cover_.begin(), cover_.end(), out.begin(), quantised_share);
+        std::transform(cover_.begin(), cover_.end(), out.begin(),
+                       [&](const SporeLanes& cover) { return quantised_share(cover.of[lane]); });
         return out;
     }
 
   private:
     SporeFall fall_;
-    std::span<const double> suitability_;
-    std::vector<double> cover_, source_, deposit_;
+    std::vector<SporeLanes> suitability_, cover_, source_, deposit_;
     bool is_empty_ = true;
 };
 
@@ -225,149 +302,134 @@ std::vector<Founder> founders_of(const Grid& grid, std::uint32_t seed, std::uint
     return out;
 }
 
-SporeFall::SporeFall(const SpreadGround& ground, const SporeHabit& spores)
+SporeFall::SporeFall(const SpreadGround& ground, std::span<const SporeHabit> spores)
     : ground_(ground), side_(ground.grid.side) {
+    if (spores.empty() || spores.size() > spore_lanes)
+        throw InvalidInput("", "spores of one to four species fall at once");
     const std::size_t cells = ground.grid.nodes();
-    const auto padded = static_cast<std::size_t>(side_ + 2 * margin);
-    beside_.assign(cells, 0.0);
-    gone_.assign(cells, 0.0);
-    const double profile = wind_near_ground(1.0, spores.height, ground.cover);
+    for (std::vector<SporeLanes>* const one :
+         {&beside_, &gone_, &turned_source_, &turned_landed_, &landed_, &water_})
+        one->resize(cells);
     for (std::size_t k = 0; k < wind_sectors; ++k) {
-        const WindSector& sector = ground.rose[k];
-        plumes_[k] = plume_of(k, spores);
-        std::vector<double>& carried = plumes_[k].carried;
-        carried.resize(cells);
-        std::array<DispersalKernel, 256> kernels;
-        for (std::size_t i = 0; i < kernels.size(); ++i)
-            kernels[i] =
-                dispersal_kernel({spores.height, spores.settling,
-                                  sector.speed * profile * factor_of(static_cast<std::uint8_t>(i)),
-                                  ground.cover.grass});
-        for (std::size_t i = 0; i < cells; ++i) {
-            const DispersalKernel& kernel = kernels[ground.wind[k][i]];
-            beside_[i] += sector.share * kernel.beside;
-            gone_[i] += sector.share * kernel.gone;
-            carried[i] = sector.share * kernel.carried;
-        }
-        if (plumes_[k].by_columns) {
-            const std::vector<double> by_rows = carried;
-            transpose(side_, by_rows, carried);
-        }
+        set_plume(k, spores);
+        std::vector<Sweep>& sweeps = plumes_[k].by_columns ? by_columns_ : by_rows_;
+        if (sweeps.empty() || sweeps.back().row_step != plumes_[k].row_step)
+            sweeps.push_back({plumes_[k].row_step, {}});
+        sweeps.back().plumes.push_back(k);
     }
-    passed_.assign(padded * padded, 0.0);
-    for (std::vector<double>* const one : {&turned_source_, &turned_landed_, &landed_, &water_})
-        one->assign(cells, 0.0);
-    passed_row_.assign(static_cast<std::size_t>(side_), 0.0);
 }
 
-SporeFall::Plume SporeFall::plume_of(std::size_t sector, const SporeHabit& spores) const {
+void SporeFall::set_plume(std::size_t sector, std::span<const SporeHabit> spores) {
     const auto sign = [](double value) { return value > 0.5 ? 1 : value < -0.5 ? -1 : 0; };
     const WindSector& wind = ground_.rose[sector];
-    Plume out;
+    Plume& out = plumes_[sector];
     out.row_step = sign(wind.north);
     out.column_step = sign(wind.east);
     const bool is_diagonal = out.row_step != 0 && out.column_step != 0;
     out.by_columns = out.row_step == 0;
     if (out.by_columns) std::swap(out.row_step, out.column_step);
-
-    // Spores sink by `settling` a second while the wind carries them along; they land evenly over the mean distance.
-    const double profile = wind_near_ground(1.0, spores.height, ground_.cover);
-    const double length = way_length(is_diagonal) * ground_.grid.cell;
-    std::array<double, 256> passing{};
-    for (std::size_t i = 0; i < passing.size(); ++i) {
-        const double speed = wind.speed * profile * factor_of(static_cast<std::uint8_t>(i));
-        const double mean = speed * spores.height / spores.settling;
-        passing[i] = mean > 0.0 ? exponential(-length / mean) : 0.0;
+    const std::vector<std::uint8_t>& factors = ground_.wind[sector];
+    out.wind = factors.data();
+    if (out.by_columns) {
+        out.turned_wind.resize(factors.size());
+        transpose<std::uint8_t>(side_, factors, out.turned_wind);
+        out.wind = out.turned_wind.data();
     }
-    std::vector<double> by_rows;
-    by_rows.reserve(ground_.grid.nodes());
-    for (const std::uint8_t factor : ground_.wind[sector]) by_rows.push_back(passing[factor]);
-    out.passing = by_rows;
-    if (out.by_columns) transpose(side_, by_rows, out.passing);
+    out.rows.resize(3 * static_cast<std::size_t>(side_ + 2 * margin));
 
     const std::array<Target, 3> targets = targets_of(out.row_step, out.column_step);
-    const auto is_outside = [&](int number) { return number < 0 || number >= side_; };
-    for (int row = 0; row < side_; ++row)
+    const auto is_outside = [&](int at) { return at < 0 || at >= side_; };
+    for (int number = 0; number < side_; ++number) {
+        const int row = out.row_step > 0 ? number : side_ - 1 - number;
+        out.first_exits.push_back(static_cast<std::uint32_t>(out.exits.size()));
         for (int column = 0; column < side_; ++column) {
             double share = 0.0;
             for (const Target& target : targets)
                 if (is_outside(row + target.rows) || is_outside(column + target.columns))
                     share += target.share;
-            if (share == 0.0) continue;
-            out.leaving.push_back(
-                static_cast<std::size_t>((row + margin) * (side_ + 2 * margin) + column + margin));
-            out.leaving_shares.push_back(share);
+            if (share > 0.0) out.exits.push_back({column, share});
         }
-    return out;
+    }
+    out.first_exits.push_back(static_cast<std::uint32_t>(out.exits.size()));
+
+    // Spores sink by `settling` a second while the wind carries them along; they land evenly over the mean distance.
+    const double length = way_length(is_diagonal) * ground_.grid.cell;
+    ByFactor beside, gone;
+    for (std::size_t lane = 0; lane < spores.size(); ++lane) {
+        const SporeHabit& habit = spores[lane];
+        const double profile = wind_near_ground(1.0, habit.height, ground_.cover);
+        for (std::size_t i = 0; i < out.passing.size(); ++i) {
+            const double speed = wind.speed * profile * factor_of(static_cast<std::uint8_t>(i));
+            const DispersalKernel kernel =
+                dispersal_kernel({habit.height, habit.settling, speed, ground_.cover.grass});
+            beside[i].of[lane] = wind.share * kernel.beside;
+            gone[i].of[lane] = wind.share * kernel.gone;
+            out.carried[i].of[lane] = wind.share * kernel.carried;
+            const double mean = speed * habit.height / habit.settling;
+            out.passing[i].of[lane] = mean > 0.0 ? exponential(-length / mean) : 0.0;
+        }
+    }
+    for (std::size_t i = 0; i < factors.size(); ++i)
+        for (std::size_t lane = 0; lane < spore_lanes; ++lane) {
+            beside_[i].of[lane] += beside[factors[i]].of[lane];
+            gone_[i].of[lane] += gone[factors[i]].of[lane];
+        }
 }
 
-double SporeFall::blow(const Plume& plume, std::span<const double> source,
-                       std::vector<double>& landed) {
-    const std::array<Target, 3> targets = targets_of(plume.row_step, plume.column_step);
+void SporeFall::blow_row(Plume& plume, int number, std::span<const SporeLanes> source,
+                         std::span<SporeLanes> landed, SporeLanes& gone) {
+    const int row = plume.row_step > 0 ? number : side_ - 1 - number;
+    const std::size_t begin = ground_.grid.index(0, row);
     const std::ptrdiff_t stride = side_ + 2 * margin;
-    std::array<std::ptrdiff_t, 3> upwind{};
-    for (std::size_t k = 0; k < targets.size(); ++k)
-        upwind[k] = -(targets[k].rows * stride + targets[k].columns);
-    for (int number = 0; number < side_; ++number) {
-        const int row = plume.row_step > 0 ? number : side_ - 1 - number;
-        const auto begin = static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
-        const double* const emitted = &source[begin];
-        const double* const carried = &plume.carried[begin];
-        const double* const passing = &plume.passing[begin];
-        double* __restrict const ground = &landed[begin];
-        double* __restrict const passed = passed_row_.data();
-        double* const here = &passed_[static_cast<std::size_t>((row + margin) * stride) + margin];
-        const double* const straight = here + upwind[0];
-        const double* const one_side = here + upwind[1];
-        const double* const other_side = here + upwind[2];
-        for (int i = 0; i < side_; ++i) {
-            const double air = emitted[i] * carried[i] + straight_share * straight[i] +
-                               side_share * (one_side[i] + other_side[i]);
-            // Less would become denormal numbers, with which processors are slow.
-            const double share = air > least_passing ? passing[i] : 0.0;
-            passed[i] = share * air;
-            ground[i] += air - passed[i];
-        }
-        // A row of its own, so that compilers see that no cell depends on another of it.
-        std::copy_n(passed, side_, here);
-    }
-    double gone = 0.0;
-    for (std::size_t i = 0; i < plume.leaving.size(); ++i)
-        gone += plume.leaving_shares[i] * passed_[plume.leaving[i]];
-    return gone;
+    // The row that so many rows ago the wind went over.
+    const auto before = [&](int rows) {
+        return plume.rows.data() + (number + 3 - rows) % 3 * stride + margin;
+    };
+    const std::array<Target, 3> targets = targets_of(plume.row_step, plume.column_step);
+    const auto upwind = [&](const Target& target) {
+        return before(std::abs(target.rows)) - target.columns;
+    };
+    SporeLanes* const passed = before(0);
+    blow_over({plume.wind + begin, plume.carried.data(), plume.passing.data(), &source[begin],
+               upwind(targets[0]), upwind(targets[1]), upwind(targets[2]), passed, &landed[begin]},
+              static_cast<std::size_t>(side_));
+    for (const Exit* exit =
+             plume.exits.data() + plume.first_exits[static_cast<std::size_t>(number)];
+         exit < plume.exits.data() + plume.first_exits[static_cast<std::size_t>(number) + 1];
+         ++exit)
+        for (std::size_t lane = 0; lane < spore_lanes; ++lane)
+            gone.of[lane] += exit->share * passed[exit->column].of[lane];
 }
 
-double SporeFall::wash(std::span<double> deposit) {
-    std::fill(water_.begin(), water_.end(), 0.0);
-    double gone = 0.0;
-    const WashGraph::Way* way = ground_.wash.ways.data();
-    const WashGraph::Way* const ways = way;
-    for (const WashGraph::Stop& stop : ground_.wash.stops) {
-        const double taken = deposit[stop.cell] * stop.washed;
-        const double water = water_[stop.cell] + taken;
-        const double leaving = water * stop.leaving;
-        deposit[stop.cell] += (water - leaving) - taken;
-        const WashGraph::Way* const end = ways + stop.end;
-        if (way == end) gone += leaving;
-        for (; way < end; ++way) water_[way->to] += leaving * way->share;
-    }
-    return gone;
+void SporeFall::blow(const Sweep& sweep, std::span<const SporeLanes> source,
+                     std::span<SporeLanes> landed, SporeLanes& gone) {
+    for (const std::size_t k : sweep.plumes)
+        std::fill(plumes_[k].rows.begin(), plumes_[k].rows.end(), SporeLanes());
+    for (int number = 0; number < side_; ++number)
+        for (const std::size_t k : sweep.plumes) blow_row(plumes_[k], number, source, landed, gone);
 }
 
-double SporeFall::fall(std::span<const double> source, std::span<double> deposit) {
+SporeLanes SporeFall::fall(std::span<const SporeLanes> source, std::span<SporeLanes> deposit) {
     require_values(ground_.grid, source.size());
     require_values(ground_.grid, deposit.size());
-    double gone = 0.0;
-    for (std::size_t i = 0; i < source.size(); ++i) gone += source[i] * gone_[i];
-    transpose(side_, source, turned_source_);
-    std::fill(turned_landed_.begin(), turned_landed_.end(), 0.0);
-    for (std::size_t i = 0; i < source.size(); ++i) landed_[i] = source[i] * beside_[i];
-    for (const Plume& plume : plumes_)
-        gone += plume.by_columns ? blow(plume, turned_source_, turned_landed_)
-                                 : blow(plume, source, landed_);
-    transpose(side_, turned_landed_, deposit);
-    for (std::size_t i = 0; i < source.size(); ++i) deposit[i] += landed_[i];
-    return gone + wash(deposit);
+    SporeLanes gone;
+    for (std::size_t i = 0; i < source.size(); ++i)
+        for (std::size_t lane = 0; lane < spore_lanes; ++lane) {
+            gone.of[lane] += source[i].of[lane] * gone_[i].of[lane];
+            landed_[i].of[lane] = source[i].of[lane] * beside_[i].of[lane];
+        }
+    transpose<SporeLanes>(side_, source, turned_source_);
+    std::fill(turned_landed_.begin(), turned_landed_.end(), SporeLanes());
+    for (const Sweep& sweep : by_rows_) blow(sweep, source, landed_, gone);
+    for (const Sweep& sweep : by_columns_) blow(sweep, turned_source_, turned_landed_, gone);
+    transpose<SporeLanes>(side_, turned_landed_, deposit);
+    for (std::size_t i = 0; i < source.size(); ++i)
+        for (std::size_t lane = 0; lane < spore_lanes; ++lane)
+            deposit[i].of[lane] += landed_[i].of[lane];
+    std::fill(water_.begin(), water_.end(), SporeLanes());
+    const SporeLanes in_water = wash_down(ground_.wash, deposit, water_);
+    for (std::size_t lane = 0; lane < spore_lanes; ++lane) gone.of[lane] += in_water.of[lane];
+    return gone;
 }
 
 std::size_t Establishment::bytes() const {
@@ -378,30 +440,44 @@ std::size_t Establishment::bytes() const {
 
 Establishment spread_of(const SpreadGround& ground, const SporeHabit& spores,
                         std::span<const double> suitability, std::span<const Founder> founders) {
-    require_values(ground.grid, suitability.size());
+    const Spreading one{spores, suitability, founders};
+    return std::move(spread_together(ground, {&one, 1}).front());
+}
+
+std::vector<Establishment> spread_together(const SpreadGround& ground,
+                                           std::span<const Spreading> species) {
     const Grid& grid = ground.grid;
+    std::vector<SporeHabit> spores;
+    for (const Spreading& one : species) {
+        require_values(grid, one.suitability.size());
+        spores.push_back(one.spores);
+    }
     const double share = std::min(1.0, founder_area / (grid.cell * grid.cell));
     const auto cell_number = [&](double metres) {
         return static_cast<int>(std::floor(
             std::clamp((metres - grid.origin) / grid.cell + 0.5, -1.0, grid.side + 0.0)));
     };
-    Cover cover(ground, spores, suitability);
-    Establishment out{grid, {}};
+    Cover cover(ground, species, spores);
+    std::vector<Establishment> out(species.size(), {grid, {}});
     int before = spread_begin - 1;
     for (int year = spread_begin; year <= last_year;
          year += year < 0 ? spread_early_step : spread_step) {
         // Founders of the years since the last step begin with the next one.
         if (year > spread_begin) cover.step(year - before);
-        for (const Founder& founder : founders) {
-            const int column = cell_number(founder.x), row = cell_number(founder.y);
-            const bool is_inside = column >= 0 && row >= 0 && column < grid.side && row < grid.side;
-            const int arrival = std::max(founder.year, spread_begin);
-            if (is_inside && arrival > before && arrival <= year)
-                cover.found(grid.index(column, row), share);
+        for (std::size_t lane = 0; lane < species.size(); ++lane) {
+            for (const Founder& founder : species[lane].founders) {
+                const int column = cell_number(founder.x), row = cell_number(founder.y);
+                const bool is_inside =
+                    column >= 0 && row >= 0 && column < grid.side && row < grid.side;
+                const int arrival = std::max(founder.year, spread_begin);
+                if (is_inside && arrival > before && arrival <= year)
+                    cover.found(lane, grid.index(column, row), share);
+            }
+            if (year >= 0 && year % spread_interval == 0)
+                out[lane].shares[static_cast<std::size_t>(year / spread_interval)] =
+                    cover.quantised(lane);
         }
         before = year;
-        if (year >= 0 && year % spread_interval == 0)
-            out.shares[static_cast<std::size_t>(year / spread_interval)] = cover.quantised();
     }
     return out;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 #include <utility>
 
 #include "core/math/elementary.h"
@@ -86,44 +88,74 @@ Canopy canopy_of(const StandParams& stand) {
     return {closure, exponential(-0.5 * 5.0 * closure)};
 }
 
-/// Returns how well a species could live in each cell of the grid on which species spread, 0..1, as far as is known
-/// before any tree is.
+/// Returns what each cell of the grid on which species spread has to give, as far as is known before any tree is.
+std::vector<Site> sites_of(const World& world, const Grid& grid, const Parallel& parallel) {
+    std::vector<Site> sites(grid.nodes());
+    constexpr int stripe = 16;
+    std::vector<std::function<void()>> tasks;
+    for (int first = 0; first < grid.side; first += stripe)
+        tasks.emplace_back([&, first] {
+            for (int row = first; row < std::min(first + stripe, grid.side); ++row)
+                for (int column = 0; column < grid.side; ++column)
+                    sites[grid.index(column, row)] = world.site_at(
+                        {static_cast<std::int32_t>(grid.place(column) * units_of_metre),
+                         static_cast<std::int32_t>(grid.place(row) * units_of_metre)});
+        });
+    parallel(tasks);
+    return sites;
+}
+
+/// Returns how well a species could live at some sites, 0..1.
 std::vector<double> suitability_of(const World& world, const FungusSpecies& species,
-                                   const Grid& grid) {
+                                   std::span<const Site> sites) {
     const Canopy canopy = canopy_of(world.params.stand);
     double hosts = 0.0;
     for (std::size_t k = 0; k < world.stand.kinds.size(); ++k)
         if ((species.kinds >> k & 1U) != 0U) hosts += 1.0;
     const bool needs_trees = species.ecology.guild != Guild::grass;
     std::vector<double> out;
-    out.reserve(grid.nodes());
-    for (int row = 0; row < grid.side; ++row)
-        for (int column = 0; column < grid.side; ++column) {
-            const WorldPoint at{static_cast<std::int32_t>(grid.place(column) * units_of_metre),
-                                static_cast<std::int32_t>(grid.place(row) * units_of_metre)};
-            Site site = world.site_at(at);
-            // There is more light at the rims of woods and in their gaps than in their mean.
-            const double open = site.light;
-            site.light = open * canopy.light;
-            const double below = suitability(species.ecology, site);
-            site.light = open * std::max(canopy.light, 0.5);
-            const double above = suitability(species.ecology, site);
-            out.push_back(needs_trees && hosts == 0.0 ? 0.0 : std::max(below, above));
-        }
+    out.reserve(sites.size());
+    for (Site site : sites) {
+        // There is more light at the rims of woods and in their gaps than in their mean.
+        const double open = site.light;
+        site.light = open * canopy.light;
+        const double below = suitability(species.ecology, site);
+        site.light = open * std::max(canopy.light, 0.5);
+        const double above = suitability(species.ecology, site);
+        out.push_back(needs_trees && hosts == 0.0 ? 0.0 : std::max(below, above));
+    }
     return out;
 }
 
-void spread_species(World& world) {
+void spread_species(World& world, const Parallel& parallel) {
     const double closure = canopy_of(world.params.stand).closure;
     const WindCover cover{.closure = closure, .crown_top = world.params.stand.height};
     const SpreadGround ground = spread_ground(*world.ground, world.params.climate, cover);
-    world.establishment.reserve(world.species.size());
-    for (const FungusSpecies& species : world.species) {
-        const std::vector<double> suits = suitability_of(world, species, ground.grid);
-        const std::vector<Founder> founders =
-            founders_of(ground.grid, world.params.seed, species.stream, suits);
-        world.establishment.push_back(spread_of(ground, species.ecology.spores, suits, founders));
-    }
+    const std::vector<Site> sites = sites_of(world, ground.grid, parallel);
+    // Two groups at least, which two threads may take.
+    const std::size_t number = world.species.size();
+    const std::size_t group = std::clamp<std::size_t>((number + 1) / 2, 1, spore_lanes);
+    world.establishment.resize(number);
+    std::vector<std::function<void()>> tasks;
+    for (std::size_t first = 0; first < number; first += group)
+        tasks.emplace_back([&, first] {
+            const std::size_t last = std::min(first + group, number);
+            std::vector<std::vector<double>> suits;
+            std::vector<std::vector<Founder>> founders;
+            std::vector<Spreading> species;
+            for (std::size_t i = first; i < last; ++i) {
+                suits.push_back(suitability_of(world, world.species[i], sites));
+                founders.push_back(founders_of(ground.grid, world.params.seed,
+                                               world.species[i].stream, suits.back()));
+            }
+            for (std::size_t i = first; i < last; ++i)
+                species.push_back(
+                    {world.species[i].ecology.spores, suits[i - first], founders[i - first]});
+            std::vector<Establishment> spread = spread_together(ground, species);
+            std::move(spread.begin(), spread.end(),
+                      world.establishment.begin() + static_cast<std::ptrdiff_t>(first));
+        });
+    parallel(tasks);
 }
 
 }  // namespace
@@ -160,6 +192,15 @@ Site World::site_at(WorldPoint at) const {
             .index = index};
 }
 
+Site World::dim_site_at(WorldPoint at) const {
+    const double index =
+        wetness_index_at(*ground, coordinate_of(*this, at.x), coordinate_of(*this, at.y));
+    return {.light = diffuse_share * sky_at(horizon, metres(at.x), metres(at.y)),
+            .wetness = wetness_on(*ground, index, autumn_water),
+            .acidity = params.soil.acidity,
+            .index = index};
+}
+
 Place World::place_at(WorldPoint at) const {
     return sporeprint::place_at(*ground, coordinate_of(*this, at.x), coordinate_of(*this, at.y));
 }
@@ -182,18 +223,18 @@ std::string world_key(const WorldParams& params) {
 }
 
 World world_of(const WorldParams& params, const WorldLookup& lookup,
-               std::shared_ptr<const Ground> ground) {
+               std::shared_ptr<const Ground> ground, const Parallel& parallel) {
     World world;
     world.params = params;
     world.stand = stand_of(params, lookup);
     world.ground = std::move(ground);
-    world.horizon = horizon_of(world.ground->grid, world.ground->heights);
+    world.horizon = horizon_of(world.ground->grid, world.ground->heights, parallel);
     world.sun = sun_of(radians(params.climate.latitude_deg),
                        is_southern(params) ? midsummer + half_a_year : midsummer);
     world.autumn_water = autumn_water_of(params);
     world.key = world_key(params);
     add_species(world, lookup);
-    spread_species(world);
+    spread_species(world, parallel);
     return world;
 }
 
@@ -204,7 +245,8 @@ std::size_t Block::bytes() const {
 Block block_of(const World& world, CellIndex block) {
     Block out;
     out.trees = trees_of(
-        world.stand, [&](WorldPoint at) { return world.site_at(at); }, block);
+        world.stand, [&](WorldPoint at) { return world.site_at(at); }, block,
+        [&](WorldPoint at) { return world.dim_site_at(at); });
     const auto slope = [&](WorldPoint at) {
         const Place place = world.place_at(at);
         return FallSite{place.east, place.north};

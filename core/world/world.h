@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/images.h"
 #include "core/model/ecology.h"
 #include "core/world/dead_wood.h"
 #include "core/world/ground.h"
@@ -52,6 +53,8 @@ struct World {
 
     /// Returns what a place has to give to what grows there, crowns not considered.
     [[nodiscard]] Site site_at(WorldPoint at) const;
+    /// Returns the same with less light: that of the sky alone, without the sun. It costs a fifth.
+    [[nodiscard]] Site dim_site_at(WorldPoint at) const;
     /// Returns the ground at a place; beyond the world it is that of its rim.
     [[nodiscard]] Place place_at(WorldPoint at) const;
     /// Returns the direction to which the wind blows most, radians from east to north.
@@ -65,10 +68,12 @@ struct World {
 
 /// Computes a world over its ground.
 ///
+/// parallel  spreads species side by side
 /// throws  InvalidInput as stand_of() does, or (path "fungi.species") for a species that is not known
 /// cost    50 ms, and 15 ms for each species
 [[nodiscard]] World world_of(const WorldParams& params, const WorldLookup& lookup,
-                             std::shared_ptr<const Ground> ground);
+                             std::shared_ptr<const Ground> ground,
+                             const Parallel& parallel = in_turn);
 
 /// What stands and lies in one block, of all times.
 struct Block {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -96,6 +98,21 @@ TEST(Horizon, TurnsWithTheGround) {
         for (std::size_t azimuth = 0; azimuth < horizon_azimuths; ++azimuth)
             EXPECT_NEAR(here.sines[azimuth], there.sines[(azimuth + 4) % horizon_azimuths], 0.005);
     }
+}
+
+TEST(Horizon, HasTheSameSkyAlone) {
+    std::vector<std::int32_t> heights;
+    for (std::size_t i = 0; i < grid.nodes(); ++i)
+        heights.push_back(static_cast<std::int32_t>(i * 7919 % 20011));
+    const Horizon horizon = horizon_of(grid, heights);
+    for (double x = -70.0; x < 70.0; x += 3.3)
+        EXPECT_EQ(sky_at(horizon, x, 0.7 * x), horizon_at(horizon, x, 0.7 * x).sky);
+    const Horizon reversed =
+        horizon_of(grid, heights, [](std::span<const std::function<void()>> tasks) {
+            for (std::size_t i = tasks.size(); i-- > 0;) tasks[i]();
+        });
+    EXPECT_EQ(reversed.sines, horizon.sines);
+    EXPECT_EQ(reversed.sky, horizon.sky);
 }
 
 TEST(Horizon, IsDefinedBeyondTheGrid) {

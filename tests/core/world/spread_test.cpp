@@ -89,6 +89,22 @@ Middle middle_of(const Grid& grid, const auto& values) {
     return out;
 }
 
+/// The spores of one species.
+class OneFall {
+  public:
+    OneFall(const SpreadGround& ground, const SporeHabit& spores) : fall_(ground, {&spores, 1}) {}
+    double fall(const std::vector<double>& source, std::vector<double>& deposit) {
+        std::vector<SporeLanes> emitted(source.size()), fallen(source.size());
+        for (std::size_t i = 0; i < source.size(); ++i) emitted[i].of[0] = source[i];
+        const SporeLanes gone = fall_.fall(emitted, fallen);
+        for (std::size_t i = 0; i < source.size(); ++i) deposit[i] = fallen[i].of[0];
+        return gone.of[0];
+    }
+
+  private:
+    SporeFall fall_;
+};
+
 std::vector<double> single_source(const Grid& grid, int column, int row) {
     std::vector<double> out(grid.nodes(), 0.0);
     out[grid.index(column, row)] = 1.0;
@@ -99,7 +115,7 @@ TEST(SporeFall, EverySporeLiesOnTheGroundOrLeavesTheWorld) {
     std::uint32_t seed = 0;
     for (const double height : {0.01, 0.1, 2.0, 20.0})
         for (const double settling : {0.0001, 0.0015, 0.05}) {
-            SporeFall fall(hilly(), {settling, height});
+            OneFall fall(hilly(), {settling, height});
             const std::vector<double> source = random_source(++seed);
             std::vector<double> deposit(source.size());
             const double gone = fall.fall(source, deposit);
@@ -110,7 +126,7 @@ TEST(SporeFall, EverySporeLiesOnTheGroundOrLeavesTheWorld) {
 }
 
 TEST(SporeFall, IsLinearInItsSource) {
-    SporeFall fall(hilly(), {0.001, 0.1});
+    OneFall fall(hilly(), {0.001, 0.1});
     const std::vector<double> a = random_source(1), b = random_source(2);
     std::vector<double> both(a.size()), of_a(a.size()), of_b(a.size()), of_both(a.size());
     for (std::size_t i = 0; i < a.size(); ++i) both[i] = a[i] + 2.0 * b[i];
@@ -127,7 +143,7 @@ TEST(SporeFall, CarriesSporesAsFarAsTheKernelSays) {
     const SporeHabit spores{0.003, 0.3};
     const double mean = wind_near_ground(3.0 * (0.5 + 128 / 255.0), spores.height, ground.cover) *
                         spores.height / spores.settling;
-    SporeFall fall(ground, spores);
+    OneFall fall(ground, spores);
     const Grid& grid = ground.grid;
     std::vector<double> deposit(grid.nodes());
     static_cast<void>(fall.fall(single_source(grid, 2, 64), deposit));
@@ -141,7 +157,7 @@ TEST(SporeFall, CarriesSporesAsFarAsTheKernelSays) {
 
 TEST(SporeFall, WithoutWindAndRainLeavesAllSporesWhereTheyAre) {
     const SpreadGround ground = even_ground(270, 1.0, 0.0, 0.0, 0.2);
-    SporeFall fall(ground, {});
+    OneFall fall(ground, {});
     const std::vector<double> source = single_source(ground.grid, 70, 30);
     std::vector<double> deposit(source.size());
     EXPECT_EQ(fall.fall(source, deposit), 0.0);
@@ -151,7 +167,7 @@ TEST(SporeFall, WithoutWindAndRainLeavesAllSporesWhereTheyAre) {
 TEST(SporeFall, RainOnASlopeWashesSporesDownhillAndOnLevelGroundHardly) {
     const auto fallen = [](double rain, double rise) {
         const SpreadGround ground = even_ground(270, 1.0, 0.0, rain, rise);
-        SporeFall fall(ground, {});
+        OneFall fall(ground, {});
         std::vector<double> deposit(ground.grid.nodes());
         static_cast<void>(fall.fall(single_source(ground.grid, 64, 64), deposit));
         for (int row = 65; row < ground.grid.side; ++row)
@@ -296,6 +312,27 @@ TEST(Establishment, IsLinearBetweenCellsAndMoments) {
     EXPECT_NEAR(establishment_at(out, 0.0, 3.0, 30.0), (15.0 + 7.5) / 255.0, 1e-12);
     EXPECT_NEAR(establishment_at(out, 500.0, -500.0, 200.0), (30.0 + 50.0) / 255.0, 1e-12);
     EXPECT_EQ(out.bytes(), sizeof(out) + 16 * spread_moments);
+}
+
+TEST(Spread, OfASpeciesIsTheSameBesideOthers) {
+    const SpreadGround& ground = hilly();
+    const std::vector<SporeHabit> spores{{0.0015, 0.06}, {0.004, 0.3}, {0.0007, 1.5}, {0.01, 0.02}};
+    std::vector<std::vector<double>> suits(4);
+    std::vector<std::vector<Founder>> founders;
+    std::vector<Spreading> together;
+    for (std::size_t k = 0; k < 4; ++k) {
+        for (std::size_t i = 0; i < ground.grid.nodes(); ++i)
+            suits[k].push_back(static_cast<double>((i * (k + 3)) % 17) / 16.0);
+        founders.push_back(founders_of(ground.grid, 5, static_cast<std::uint32_t>(k), suits[k]));
+    }
+    for (std::size_t k = 0; k < 4; ++k) together.push_back({spores[k], suits[k], founders[k]});
+    const std::vector<Establishment> all = spread_together(ground, together);
+    for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(spread_of(ground, spores[k], suits[k], founders[k]).shares, all[k].shares) << k;
+    const std::vector<Establishment> two = spread_together(ground, std::span(together).subspan(2));
+    EXPECT_EQ(two[1].shares, all[3].shares);
+    EXPECT_THROW(SporeFall(ground, {}), InvalidInput);
+    EXPECT_THROW(SporeFall(ground, std::vector<SporeHabit>(5)), InvalidInput);
 }
 
 TEST(Spread, RefusesValuesOfAnotherGrid) {
