@@ -134,8 +134,6 @@ Value describe_world(const Context& context, const WorldSpec& spec, const std::s
 /// Returns a number with two digits behind its point.
 double rounded(double value) { return std::round(value * 100.0) / 100.0 + 0.0; }
 
-constexpr std::array<int, 12> days_of_months = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-
 /// Returns the sums and means of some days of a year.
 Value summary(std::span<const WeatherDay> days) {
     WeatherDay sum;

@@ -10,6 +10,8 @@
 namespace sporeprint {
 
 inline constexpr int days_of_year = 365;
+inline constexpr std::array<int, 12> days_of_months = {31, 28, 31, 30, 31, 30,
+                                                       31, 31, 30, 31, 30, 31};
 
 /// The weather of one day.
 struct WeatherDay {
