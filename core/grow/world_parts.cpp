@@ -1,10 +1,16 @@
 #include "core/grow/world_parts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "core/world/fruiting_weather.h"
+#include "core/world/influence.h"
 #include "core/world/weather.h"
 #include "core/world/world_habitat.h"
 
@@ -12,34 +18,18 @@ namespace sporeprint {
 
 namespace {
 
-/// Calls a function with a block and its eight neighbours, from south-west to north-east.
-void for_neighbours(CellIndex block, const std::function<void(CellIndex)>& call) {
-    for (std::int32_t y = -1; y <= 1; ++y)
-        for (std::int32_t x = -1; x <= 1; ++x) call({block.x + x, block.y + y});
-}
-
-void append(Block& out, const Block& block) {
-    out.trees.insert(out.trees.end(), block.trees.begin(), block.trees.end());
-    out.dead.insert(out.dead.end(), block.dead.begin(), block.dead.end());
-}
-
-/// Returns what stands and lies in a block and in its eight neighbours.
-Block neighbourhood_of(const World& world, CellIndex block, const ExecutionContext& execution) {
-    Block out;
-    for_neighbours(block,
-                   [&](CellIndex one) { append(out, *block_of_world(world, one, execution)); });
-    return out;
-}
-
 template <class Record>
 void sort_by_id(std::vector<Record>& records) {
     std::sort(records.begin(), records.end(),
               [](const Record& a, const Record& b) { return a.id < b.id; });
 }
 
-std::string key_of(const char* part, const World& world, CellIndex block, int time) {
-    return std::string(part) + std::to_string(block.x) + ' ' + std::to_string(block.y) + ' ' +
-           std::to_string(time) + ' ' + world.key;
+/// Returns the key of a part of a world for caches.
+template <std::size_t N>
+std::string key_of(const char* part, const World& world, const std::array<int, N>& numbers) {
+    std::string key = part;
+    for (const int number : numbers) (key += std::to_string(number)) += ' ';
+    return key += world.key;
 }
 
 /// Returns the weather of a year; that of year 0 also stands for the year before it.
@@ -47,62 +37,161 @@ WeatherYear weather_in(const World& world, int year) {
     return weather_of(world.params.climate, world.params.seed, std::max(year, 0));
 }
 
-/// Returns the bodies that emerge in a block in one year.
-std::vector<FruitBody> emerging(const Fungi& fungi, const World& world, const BlockYear& input) {
-    const SeasonConditions conditions = conditions_of(
-        fungi.species, weather_in(world, input.year - 1), weather_in(world, input.year));
-    return season_of(fungi, input, conditions, world.params.fungi.abundance);
+WorldBox grown(const WorldBox& box, double by) {
+    return {box.west - by, box.south - by, box.east + by, box.north + by};
 }
 
-/// Computes the blocks that fruit bodies in a rectangle depend on: those that it is part of, with their neighbours and
-/// the neighbours of these.
+WorldBox box_of(const Region& region) {
+    return {metres(region.west), metres(region.south), metres(region.east), metres(region.north)};
+}
+
+/// Computes the blocks that a rectangle is part of.
 void compute_blocks(const World& world, const WorldBox& box, const ExecutionContext& execution) {
-    constexpr double rim = 2.0 * block_side;
     std::vector<std::function<void()>> tasks;
-    for (const CellIndex block :
-         blocks_of({box.west - rim, box.south - rim, box.east + rim, box.north + rim}))
+    for (const CellIndex block : blocks_of(box))
         tasks.emplace_back([&world, &execution, block] {
             static_cast<void>(block_of_world(world, block, execution));
         });
     execution.parallel(tasks);
 }
 
-/// Computes the mycelia that fruit bodies in a rectangle in a year depend on, whose blocks are computed.
-void compute_mycelia(const World& world, const WorldBox& box, int year,
-                     const ExecutionContext& execution) {
-    std::vector<std::function<void()>> tasks;
-    const int last = epoch_of(year), first = epoch_of(std::max(year - 1, 0));
-    for (const CellIndex block : blocks_of({box.west - block_side, box.south - block_side,
-                                            box.east + block_side, box.north + block_side}))
-        for (int epoch = first; epoch <= last; ++epoch)
-            tasks.emplace_back([&world, &execution, block, epoch] {
-                static_cast<void>(mycelia_of_world(world, block, epoch, execution));
-            });
-    execution.parallel(tasks);
+/// Returns how far away lies what decides on the fruit bodies of a rectangle, metres.
+double reach_of(const Influence& influence) {
+    return std::max({influence.trees, influence.wood, influence.light + shade_reach});
 }
 
-BlockSeason season_in(const World& world, CellIndex block, int year,
-                      const ExecutionContext& execution) {
-    const Block around = neighbourhood_of(world, block, execution);
-    const WorldHabitat habitat(world, block, around.trees);
-    const Fungi fungi{world.params.seed, world.species, habitat};
-    BlockSeason out;
-    // What stands from the year before stays, as long as it lives. Brackets are among the bodies of both years.
-    for (const int one : {year - 1, year}) {
-        if (one < 0) continue;
-        std::vector<Genet> genets;
-        for_neighbours(block, [&](CellIndex neighbour) {
-            const auto part = mycelia_of_world(world, neighbour, epoch_of(one), execution);
-            genets.insert(genets.end(), part->genets.begin(), part->genets.end());
-        });
-        const BlockYear input{block, one, genets, {around.trees, around.dead}};
-        for (FruitBody& body : emerging(fungi, world, input))
-            if (body.gone > time_of(year)) out.bodies.push_back(body);
+/// What stands and lies round a rectangle, as far as its fungi depend on it. Not for use by several threads.
+class Environs {
+  public:
+    Environs(const World& world, const Region& region, const Influence& influence,
+             const ExecutionContext& execution)
+        : world_(world),
+          execution_(execution),
+          habitat_(world, region.grown(influence.light),
+                   [this](const Region& wide) { return trees_in(wide); }) {
+        const Region of_trees = region.grown(influence.trees),
+                     of_wood = region.grown(influence.wood);
+        const WorldBox box = box_of(region.grown(std::max(influence.trees, influence.wood)));
+        for (const CellIndex at : blocks_of(box)) {
+            const Block& block = block_at(at);
+            for (const StandTree& tree : block.trees)
+                if (of_trees.contains(tree.at)) trees_.push_back(tree);
+            for (const DeadWood& wood : block.dead)
+                if (of_wood.contains(wood.at)) wood_.push_back(wood);
+        }
     }
-    sort_by_id(out.bodies);
-    const auto same = [](const FruitBody& a, const FruitBody& b) { return a.id == b.id; };
-    out.bodies.erase(std::unique(out.bodies.begin(), out.bodies.end(), same), out.bodies.end());
-    return out;
+    Environs(const Environs&) = delete;
+    Environs& operator=(const Environs&) = delete;
+    ~Environs() = default;
+
+    [[nodiscard]] Fungi fungi() const { return {world_.params.seed, world_.species, habitat_}; }
+    [[nodiscard]] Surroundings around() const { return {trees_, wood_}; }
+
+  private:
+    const Block& block_at(CellIndex at) {
+        std::shared_ptr<const Block>& block = blocks_[{at.x, at.y}];
+        if (!block) block = block_of_world(world_, at, execution_);
+        return *block;
+    }
+
+    std::vector<std::span<const StandTree>> trees_in(const Region& region) {
+        std::vector<std::span<const StandTree>> lists;
+        for (const CellIndex at : blocks_of(box_of(region))) lists.emplace_back(block_at(at).trees);
+        return lists;
+    }
+
+    const World& world_;
+    const ExecutionContext& execution_;
+    std::map<std::array<std::int32_t, 2>, std::shared_ptr<const Block>> blocks_;
+    std::vector<StandTree> trees_;
+    std::vector<DeadWood> wood_;
+    WorldHabitat habitat_;
+};
+
+/// The fungi of a rectangle. Not for use by several threads.
+class RegionParts {
+  public:
+    RegionParts(const World& world, const Region& region, const ExecutionContext& execution)
+        : world_(world),
+          region_(region),
+          influence_(influence_on(world.species, world.stand)),
+          execution_(execution) {}
+
+    /// Returns the fruit bodies that stand at some time of a year.
+    std::shared_ptr<const BlockSeason> standing(int year) {
+        std::shared_ptr<const BlockSeason> now = emerging(year);
+        // What stands from the year before stays, as long as it lives. Brackets are among the bodies of both years.
+        if (year == 0) return now;
+        BlockSeason out;
+        for (const FruitBody& body : emerging(year - 1)->bodies)
+            if (body.gone > time_of(year)) out.bodies.push_back(body);
+        for (const FruitBody& body : now->bodies)
+            if (body.gone > time_of(year)) out.bodies.push_back(body);
+        sort_by_id(out.bodies);
+        const auto same = [](const FruitBody& a, const FruitBody& b) { return a.id == b.id; };
+        out.bodies.erase(std::unique(out.bodies.begin(), out.bodies.end(), same), out.bodies.end());
+        return std::make_shared<const BlockSeason>(std::move(out));
+    }
+
+  private:
+    [[nodiscard]] std::array<int, 5> place_and(int time) const {
+        return {region_.west, region_.south, region_.east, region_.north, time};
+    }
+
+    /// Returns the fruit bodies that emerge in a year, and all brackets that stand at some time of it.
+    std::shared_ptr<const BlockSeason> emerging(int year) {
+        return execution_.caches.seasons(key_of("season ", world_, place_and(year)), [&] {
+            throw_if_cancelled(execution_);
+            const std::shared_ptr<const BlockMycelia> mycelia = mycelia_in(epoch_of(year));
+            const Fungi fungi = environs().fungi();
+            const SeasonConditions conditions = conditions_of(
+                fungi.species, weather_in(world_, year - 1), weather_in(world_, year));
+            const RegionYear input{region_, year, mycelia->genets, environs().around()};
+            return std::make_shared<const BlockSeason>(
+                BlockSeason{season_of(fungi, input, conditions, world_.params.fungi.abundance)});
+        });
+    }
+
+    /// Returns the mycelia on which the bodies of an epoch depend.
+    std::shared_ptr<const BlockMycelia> mycelia_in(int epoch) {
+        return execution_.caches.mycelia(key_of("mycelia round ", world_, place_and(epoch)), [&] {
+            throw_if_cancelled(execution_);
+            return std::make_shared<const BlockMycelia>(BlockMycelia{
+                genets_round(environs().fungi(), region_, epoch, environs().around())});
+        });
+    }
+
+    const Environs& environs() {
+        if (!environs_) environs_.emplace(world_, region_, influence_, execution_);
+        return *environs_;
+    }
+
+    const World& world_;
+    Region region_;
+    Influence influence_;
+    const ExecutionContext& execution_;
+    std::optional<Environs> environs_;
+};
+
+/// Returns the whole metres round a rectangle.
+Region region_round(const WorldBox& box) {
+    const auto below = [](double metres) {
+        return static_cast<std::int32_t>(std::floor(metres)) * units_of_metre;
+    };
+    const auto above = [](double metres) {
+        return static_cast<std::int32_t>(std::ceil(metres)) * units_of_metre;
+    };
+    return {below(box.west), below(box.south), above(box.east), above(box.north)};
+}
+
+/// Returns the rectangles that the fruit bodies of one are computed by: itself if it is small, otherwise blocks, which
+/// others share with it.
+std::vector<Region> regions_of(const WorldBox& box) {
+    if (box.east - box.west <= block_side && box.north - box.south <= block_side)
+        return {region_round(box)};
+    std::vector<Region> regions;
+    for (const CellIndex block : blocks_of(box)) regions.emplace_back(block);
+    return regions;
 }
 
 }  // namespace
@@ -129,44 +218,43 @@ WorldLookup lookup_in(const Atlas& atlas) {
     return {tree, species};
 }
 
-std::string block_key(const World& world, CellIndex block) {
-    return key_of("block ", world, block, 0);
-}
-
 std::shared_ptr<const Block> block_of_world(const World& world, CellIndex block,
                                             const ExecutionContext& execution) {
-    return execution.caches.blocks(block_key(world, block), [&] {
-        throw_if_cancelled(execution);
-        return std::make_shared<const Block>(block_of(world, block));
-    });
+    return execution.caches.blocks(key_of("block ", world, std::array<int, 2>{block.x, block.y}),
+                                   [&] {
+                                       throw_if_cancelled(execution);
+                                       return std::make_shared<const Block>(block_of(world, block));
+                                   });
 }
 
 std::shared_ptr<const BlockMycelia> mycelia_of_world(const World& world, CellIndex block, int epoch,
                                                      const ExecutionContext& execution) {
-    return execution.caches.mycelia(key_of("mycelia ", world, block, epoch), [&] {
-        throw_if_cancelled(execution);
-        const Block around = neighbourhood_of(world, block, execution);
-        const WorldHabitat habitat(world, block, around.trees);
-        const Fungi fungi{world.params.seed, world.species, habitat};
-        return std::make_shared<const BlockMycelia>(
-            BlockMycelia{genets_of(fungi, block, epoch, {around.trees, around.dead})});
-    });
+    return execution.caches.mycelia(
+        key_of("mycelia ", world, std::array<int, 3>{block.x, block.y, epoch}), [&] {
+            throw_if_cancelled(execution);
+            const Environs environs(world, block, influence_on(world.species, world.stand),
+                                    execution);
+            return std::make_shared<const BlockMycelia>(
+                BlockMycelia{genets_of(environs.fungi(), block, epoch, environs.around())});
+        });
 }
 
 std::shared_ptr<const BlockSeason> season_of_world(const World& world, CellIndex block, int year,
                                                    const ExecutionContext& execution) {
-    return execution.caches.seasons(key_of("season ", world, block, year), [&] {
-        throw_if_cancelled(execution);
-        return std::make_shared<const BlockSeason>(season_in(world, block, year, execution));
-    });
+    return RegionParts(world, block, execution).standing(year);
 }
 
 Block blocks_round(const World& world, const WorldBox& box, const ExecutionContext& execution) {
-    const WorldBox wide{box.west - block_side, box.south - block_side, box.east + block_side,
-                        box.north + block_side};
+    // Crowns shade places near a plot from shade_reach, and litter comes from there too.
+    constexpr double shading = 42.0, beside = 2.0;
+    const double reach = std::max(shading, longest_trunk(world.stand) + beside);
+    compute_blocks(world, grown(box, reach), execution);
     Block out;
-    for (const CellIndex block : blocks_of(wide))
-        append(out, *block_of_world(world, block, execution));
+    for (const CellIndex at : blocks_of(grown(box, reach))) {
+        const std::shared_ptr<const Block> block = block_of_world(world, at, execution);
+        out.trees.insert(out.trees.end(), block->trees.begin(), block->trees.end());
+        out.dead.insert(out.dead.end(), block->dead.begin(), block->dead.end());
+    }
     sort_by_id(out.trees);
     sort_by_id(out.dead);
     return out;
@@ -174,15 +262,25 @@ Block blocks_round(const World& world, const WorldBox& box, const ExecutionConte
 
 std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box, int year,
                                       const ExecutionContext& execution) {
-    compute_blocks(world, box, execution);
-    compute_mycelia(world, box, year, execution);
+    const Influence influence = influence_on(world.species, world.stand);
+    const std::vector<Region> regions = regions_of(box);
+    WorldBox whole = box_of(regions.front());
+    for (const Region& region : regions) {
+        const WorldBox part = box_of(region);
+        whole = {std::min(whole.west, part.west), std::min(whole.south, part.south),
+                 std::max(whole.east, part.east), std::max(whole.north, part.north)};
+    }
+    compute_blocks(world, grown(whole, reach_of(influence)), execution);
+    std::vector<std::shared_ptr<const BlockSeason>> seasons(regions.size());
+    std::vector<std::function<void()>> tasks;
+    for (std::size_t i = 0; i < regions.size(); ++i)
+        tasks.emplace_back(
+            [&, i] { seasons[i] = RegionParts(world, regions[i], execution).standing(year); });
+    execution.parallel(tasks);
     std::vector<FruitBody> out;
-    for (const CellIndex block : blocks_of(box)) {
-        const std::shared_ptr<const BlockSeason> season =
-            season_of_world(world, block, year, execution);
+    for (const std::shared_ptr<const BlockSeason>& season : seasons)
         for (const FruitBody& body : season->bodies)
             if (contains(box, body.at)) out.push_back(body);
-    }
     sort_by_id(out);
     return out;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/atlas/atlas.h"
@@ -15,9 +14,6 @@ namespace sporeprint {
 /// Returns how a world finds what an atlas has, which must outlive the result.
 [[nodiscard]] WorldLookup lookup_in(const Atlas& atlas);
 
-/// Returns the key of a block of a world for caches.
-[[nodiscard]] std::string block_key(const World& world, CellIndex block);
-
 /// Returns the trees and the dead wood of a block, cached in execution.caches or computed now.
 [[nodiscard]] std::shared_ptr<const Block> block_of_world(const World& world, CellIndex block,
                                                           const ExecutionContext& execution);
@@ -29,18 +25,18 @@ namespace sporeprint {
 /// Returns the fruit bodies that stand in a block at some time of a year: those of the year and those of the year
 /// before that still stand. Cached or computed now.
 ///
-/// cost  0.5 s where nothing is known of the surroundings, 5 ms where the mycelia are
+/// cost  0.1 s where nothing is known of the surroundings, 5 ms where the trees are
 [[nodiscard]] std::shared_ptr<const BlockSeason> season_of_world(const World& world,
                                                                  CellIndex block, int year,
                                                                  const ExecutionContext& execution);
 
-/// Returns the trees and the dead wood of the blocks that a rectangle is part of, and of their neighbours, by
-/// ascending ids.
+/// Returns the trees and the dead wood of the blocks whose crowns may shade a rectangle or the ground near it, or whose
+/// trunks may lie in it, by ascending ids.
 [[nodiscard]] Block blocks_round(const World& world, const WorldBox& box,
                                  const ExecutionContext& execution);
 
 /// Returns the fruit bodies in a rectangle that stand at some time of a year, by ascending ids. What they depend on is
-/// computed in parallel.
+/// computed in parallel, and only as far away as it has influence.
 [[nodiscard]] std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box,
                                                     int year, const ExecutionContext& execution);
 

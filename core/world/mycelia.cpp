@@ -7,6 +7,7 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/world/cell_random.h"
+#include "core/world/influence.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
@@ -17,10 +18,6 @@ constexpr int rounds = 3;
 
 /// Cells of 8 m in which mycelia begin.
 constexpr std::int32_t cell_metres = 8, cell_bits = 19;
-constexpr std::int32_t cells_of_block = block_side / cell_metres;
-
-/// No mycelium of the ground begins nearer to the centre of another one of its species, metres [DahlbergStenlid1990].
-constexpr double founding_distance = 1.5;
 
 /// Lives last from half of the mean to one and a half of it.
 constexpr double shortest_life = 0.5, longest_life = 1.5;
@@ -63,21 +60,6 @@ std::uint32_t chance(double probability) {
         std::floor(std::clamp(probability, 0.0, 1.0) * all_of_24_bits + 0.5));
 }
 
-/// Returns the number of a draw from a Poisson distribution of a mean of at most 20.
-///
-/// none  e^-mean
-int poisson(double mean, double none, double draw) {
-    constexpr int most = 200;
-    double term = none, sum = term;
-    int number = 0;
-    while (draw >= sum && number < most) {
-        ++number;
-        term *= mean / number;
-        sum += term;
-    }
-    return number;
-}
-
 WorldTime life_of(const Ecology& ecology, double draw) {
     return std::max(
         ticks(ecology.genet.life * (shortest_life + (longest_life - shortest_life) * draw)),
@@ -92,9 +74,13 @@ double root_reach(const StandTree& tree, WorldTime time) {
 /// Trees in cells of 10 m, so that those near a place are in nine of them.
 class TreeGrid {
   public:
-    TreeGrid(std::span<const StandTree> trees, CellIndex block, std::uint32_t kinds)
-        : west_((std::int64_t{block.x} * block_side - margin) * units_of_metre),
-          south_((std::int64_t{block.y} * block_side - margin) * units_of_metre) {
+    /// region  that of all centres of mycelia
+    TreeGrid(std::span<const StandTree> trees, const Region& region, std::uint32_t kinds)
+        : west_(std::int64_t{region.west} - margin),
+          south_(std::int64_t{region.south} - margin),
+          columns_((std::int64_t{region.east} + margin - west_) / size + 1),
+          rows_((std::int64_t{region.north} + margin - south_) / size + 1),
+          begin_(static_cast<std::size_t>(columns_ * rows_) + 1) {
         std::vector<std::pair<std::size_t, const StandTree*>> found;
         found.reserve(trees.size());
         for (const StandTree& tree : trees) {
@@ -102,13 +88,13 @@ class TreeGrid {
             // Most trees die young and are hosts of pioneers only.
             if (years_between(tree.born, tree.died) < age_of_host) continue;
             const std::int64_t column = cell(tree.at.x - west_), row = cell(tree.at.y - south_);
-            if (column < 0 || row < 0 || column >= side || row >= side) continue;
-            found.emplace_back(static_cast<std::size_t>(row * side + column), &tree);
+            if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
+            found.emplace_back(static_cast<std::size_t>(row * columns_ + column), &tree);
         }
         for (const auto& [place, tree] : found) ++begin_[place + 1];
         for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
         trees_.resize(found.size());
-        std::array<std::uint32_t, side* side + 1> next = begin_;
+        std::vector<std::uint32_t> next = begin_;
         for (const auto& [place, tree] : found) trees_[next[place]++] = tree;
     }
 
@@ -121,10 +107,10 @@ class TreeGrid {
         constexpr std::int64_t most = 10 * std::int64_t{units_of_metre};
         std::int64_t least = most * most + 1;
         for (std::int64_t y = std::max<std::int64_t>(row - 1, 0);
-             y <= std::min<std::int64_t>(row + 1, side - 1); ++y)
+             y <= std::min<std::int64_t>(row + 1, rows_ - 1); ++y)
             for (std::int64_t x = std::max<std::int64_t>(column - 1, 0);
-                 x <= std::min<std::int64_t>(column + 1, side - 1); ++x) {
-                const auto at = static_cast<std::size_t>(y * side + x);
+                 x <= std::min<std::int64_t>(column + 1, columns_ - 1); ++x) {
+                const auto at = static_cast<std::size_t>(y * columns_ + x);
                 for (std::size_t i = begin_[at]; i < begin_[at + 1]; ++i) {
                     const StandTree& tree = *trees_[i];
                     const std::int64_t distance = distance_squared(tree.at, place);
@@ -140,14 +126,14 @@ class TreeGrid {
     }
 
   private:
+    static constexpr std::int64_t size = 10 * units_of_metre;
     static constexpr std::int64_t cell(std::int64_t units) {
-        constexpr std::int64_t size = 10 * units_of_metre;
         return units >= 0 ? units / size : -1;
     }
-    static constexpr std::int64_t margin = 38, side = 14;  // 24 m of mycelia, 10 m of roots
+    static constexpr std::int64_t margin = 38 * units_of_metre;  // 24 m of mycelia, 10 m of roots
 
-    std::int64_t west_, south_;
-    std::array<std::uint32_t, side * side + 1> begin_{};
+    std::int64_t west_, south_, columns_, rows_;
+    std::vector<std::uint32_t> begin_;
     std::vector<const StandTree*> trees_;
 };
 
@@ -175,22 +161,26 @@ struct Candidate {
     std::array<std::int8_t, rounds + 1> lives{-1, -1, -1, -1};  ///< after each round: -1 unknown
 };
 
-/// The mycelia of one species on the ground of a block.
+/// The mycelia of one species on the ground of a rectangle.
 class GroundMycelia {
   public:
-    GroundMycelia(const Fungi& fungi, std::uint8_t species, CellIndex block, int epoch,
+    GroundMycelia(const Fungi& fungi, std::uint8_t species, const Region& region, int epoch,
                   const Surroundings& around)
         : fungi_(fungi),
           index_(species),
           species_(fungi.species[species]),
-          block_(block),
+          region_(region),
           around_(around),
           begin_(time_of(epoch * epoch_years)),
           end_(time_of((epoch + 1) * epoch_years)),
-          longest_(ticks(species_.ecology.genet.life * longest_life)),
-          apron_(static_cast<std::int32_t>(std::ceil(
-              rounds * std::max(species_.ecology.genet.reach, founding()) / cell_metres))),
-          side_(cells_of_block + 2 * apron_) {}
+          longest_(ticks(species_.ecology.genet.life * longest_life)) {
+        const Region wide =
+            region.grown(rounds * std::max(species_.ecology.genet.reach, founding()));
+        west_ = wide.west >> cell_bits;
+        south_ = wide.south >> cell_bits;
+        columns_ = ((wide.east - 1) >> cell_bits) - west_ + 1;
+        rows_ = ((wide.north - 1) >> cell_bits) - south_ + 1;
+    }
 
     void append_to(std::vector<Genet>& genets, const TreeGrid* grid) {
         grid_ = grid;
@@ -201,7 +191,7 @@ class GroundMycelia {
         find_cells();
         for (Candidate& candidate : candidates_) {
             const Genet& genet = candidate.genet;
-            if (!(block_at(genet.centre) == block_) || genet.born >= end_ || genet.died <= begin_ ||
+            if (!region_.contains(genet.centre) || genet.born >= end_ || genet.died <= begin_ ||
                 !finds(candidate) || genet.died <= begin_)
                 continue;
             if (lives(candidate, rounds)) genets.push_back(genet);
@@ -224,7 +214,7 @@ class GroundMycelia {
         return genet;
     }
 
-    /// Draws births in the cells of the block and of its surroundings, for whole epochs at once.
+    /// Draws births in the cells of the rectangle and of its surroundings, for whole epochs at once.
     void draw_in_cells() {
         const std::int64_t earliest = std::int64_t{begin_} - std::int64_t{rounds + 1} * longest_;
         constexpr std::int64_t epoch_ticks = std::int64_t{epoch_years} * ticks_of_year;
@@ -234,14 +224,13 @@ class GroundMycelia {
         const double mean = species_.ecology.genet.rate * cell_metres * cell_metres * epoch_years;
         if (!(mean > 0.0)) return;
         none_ = exponential(-mean);
-        const std::int32_t west = block_.x * cells_of_block - apron_,
-                           south = block_.y * cells_of_block - apron_;
         candidates_.reserve(
-            static_cast<std::size_t>(mean * side_ * side_ * (last - first + 1) * 1.3 + 16.0));
-        for (std::int32_t row = 0; row < side_; ++row)
-            for (std::int32_t column = 0; column < side_; ++column)
+            static_cast<std::size_t>(mean * columns_ * rows_ * (last - first + 1) * 1.3 + 16.0));
+        for (std::int32_t row = 0; row < rows_; ++row)
+            for (std::int32_t column = 0; column < columns_; ++column)
                 for (std::int32_t epoch = first; epoch <= last; ++epoch)
-                    draw_in_cell({west + column, south + row}, epoch, mean, row * side_ + column);
+                    draw_in_cell({west_ + column, south_ + row}, epoch, mean,
+                                 row * columns_ + column);
     }
 
     void draw_in_cell(WorldPoint cell, std::int32_t epoch, double mean, std::int32_t place) {
@@ -250,7 +239,7 @@ class GroundMycelia {
         CellRandom random(fungi_.seed, purposes::mycelium_births, object,
                           static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y));
         const double draw = random.uniform();
-        const int number = poisson(mean, none_, draw);
+        const int number = poisson(mean, none_, draw, 200);
         for (int i = 0; i < number; ++i) {
             const std::uint32_t x = random.bits() >> (32 - cell_bits),
                                 y = random.bits() >> (32 - cell_bits);
@@ -272,13 +261,11 @@ class GroundMycelia {
     void draw_with_hosts() {
         const std::uint32_t likely =
             chance(1.0 - exponential(-species_.ecology.genet.rate * pioneer_chances));
-        const std::int32_t west = block_.x * cells_of_block - apron_,
-                           south = block_.y * cells_of_block - apron_;
         for (const StandTree& tree : around_.trees) {
             if (!species_.lives_with(tree.kind)) continue;
-            const std::int32_t column = (tree.at.x >> cell_bits) - west,
-                               row = (tree.at.y >> cell_bits) - south;
-            if (column < 0 || row < 0 || column >= side_ || row >= side_) continue;
+            const std::int32_t column = (tree.at.x >> cell_bits) - west_,
+                               row = (tree.at.y >> cell_bits) - south_;
+            if (column < 0 || row < 0 || column >= columns_ || row >= rows_) continue;
             if (tree.born >= end_) continue;
             CellRandom random(fungi_.seed, purposes::mycelium_births, species_.stream, tree.id);
             const bool begins = random.bits24() < likely;
@@ -291,7 +278,7 @@ class GroundMycelia {
             candidate.genet.died =
                 std::min(tree.died, candidate.genet.born + life_of(species_.ecology, life));
             candidate.longest = candidate.genet.died;
-            candidate.cell = row * side_ + column;
+            candidate.cell = row * columns_ + column;
             if (begins && candidate.genet.born < candidate.genet.died)
                 candidates_.push_back(candidate);
         }
@@ -300,7 +287,7 @@ class GroundMycelia {
     /// Notes which candidates lie in which cell. They are sorted by cell already, but those of trees.
     void find_cells() {
         if (is_pioneer()) std::ranges::sort(candidates_, {}, &Candidate::cell);
-        first_.assign(static_cast<std::size_t>(side_ * side_) + 1, 0);
+        first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
         for (const Candidate& candidate : candidates_)
             ++first_[static_cast<std::size_t>(candidate.cell) + 1];
         for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
@@ -364,13 +351,13 @@ class GroundMycelia {
         const Genet& young = candidate.genet;
         const double reach = std::max(species_.ecology.genet.reach, founding());
         const auto cells = static_cast<std::int32_t>(std::ceil(reach / cell_metres));
-        const std::int32_t column = candidate.cell % side_, row = candidate.cell / side_;
+        const std::int32_t column = candidate.cell % columns_, row = candidate.cell / columns_;
         const std::int32_t west = std::max(column - cells, 0),
-                           east = std::min(column + cells, side_ - 1);
-        for (std::int32_t y = std::max(row - cells, 0); y <= std::min(row + cells, side_ - 1);
+                           east = std::min(column + cells, columns_ - 1);
+        for (std::int32_t y = std::max(row - cells, 0); y <= std::min(row + cells, rows_ - 1);
              ++y) {
-            const auto from = first_[static_cast<std::size_t>(y * side_ + west)],
-                       to = first_[static_cast<std::size_t>(y * side_ + east) + 1];
+            const auto from = first_[static_cast<std::size_t>(y * columns_ + west)],
+                       to = first_[static_cast<std::size_t>(y * columns_ + east) + 1];
             for (std::size_t i = from; i < to; ++i) {
                 Candidate& other = candidates_[i];
                 const Genet& old = other.genet;
@@ -390,10 +377,10 @@ class GroundMycelia {
     const Fungi& fungi_;
     std::uint8_t index_;
     const FungusSpecies& species_;
-    CellIndex block_;
+    Region region_;
     const Surroundings& around_;
     WorldTime begin_, end_, longest_;
-    std::int32_t apron_, side_;
+    std::int32_t west_, south_, columns_, rows_;
     double none_ = 1.0;
     const TreeGrid* grid_ = nullptr;
     std::vector<Candidate> candidates_;
@@ -481,16 +468,42 @@ void append_of_trunk(const Fungi& fungi, std::uint8_t index, const DeadWood& woo
     for (const Placed& placed : living) genets.push_back(placed.genet);
 }
 
-/// Returns whether the line on which a trunk lies, or will lie, comes near a block.
-bool may_lie_in(const DeadWood& wood, CellIndex block) {
+/// Returns whether the line on which a trunk lies, or will lie, comes near a rectangle.
+bool may_lie_in(const DeadWood& wood, const Region& region) {
     const auto [sine, cosine] = sine_cosine(wood.direction);
     constexpr double rounding = 0.01;
-    const double x = metres(wood.at.x) - block.x * block_side,
-                 y = metres(wood.at.y) - block.y * block_side;
+    const double x = metres(wood.at.x), y = metres(wood.at.y);
     const double far_x = x + wood.length * cosine, far_y = y + wood.length * sine;
-    return std::max(x, far_x) >= -rounding && std::max(y, far_y) >= -rounding &&
-           std::min(x, far_x) <= block_side + rounding &&
-           std::min(y, far_y) <= block_side + rounding;
+    return std::max(x, far_x) >= metres(region.west) - rounding &&
+           std::max(y, far_y) >= metres(region.south) - rounding &&
+           std::min(x, far_x) <= metres(region.east) + rounding &&
+           std::min(y, far_y) <= metres(region.north) + rounding;
+}
+
+/// Appends the mycelia of a species on trunks that live at some time of an epoch.
+///
+/// region  that the trunks come near
+void append_of_wood(const Fungi& fungi, std::uint8_t index, const Region& region, int epoch,
+                    std::span<const DeadWood> trunks, std::vector<Genet>& genets) {
+    const WorldTime begin = time_of(epoch * epoch_years), end = time_of((epoch + 1) * epoch_years);
+    std::vector<Genet> of_trunk;
+    for (const DeadWood& wood : trunks) {
+        if (!fungi.species[index].lives_with(wood.kind) || wood.gone <= begin || wood.died >= end ||
+            !may_lie_in(wood, region))
+            continue;
+        of_trunk.clear();
+        append_of_trunk(fungi, index, wood, end, of_trunk);
+        for (const Genet& genet : of_trunk)
+            if (genet.born < end && genet.died > begin) genets.push_back(genet);
+    }
+}
+
+/// Returns the kinds of trees that fungi of the ground live with.
+std::uint32_t kinds_of_ground(const Fungi& fungi) {
+    std::uint32_t kinds = 0;
+    for (const FungusSpecies& species : fungi.species)
+        if (species.ecology.guild != Guild::wood) kinds |= species.kinds;
+    return kinds;
 }
 
 }  // namespace
@@ -503,14 +516,6 @@ std::uint32_t kinds_of(const Ecology& ecology, std::span<const std::string> kind
                                 [&](const auto& name) { return name.view() == kinds[i]; }))
             bits |= 1U << i;
     return bits;
-}
-
-double history_of(const FungusSpecies& species) {
-    // Pioneers need the hosts of all older ones, since they begin there.
-    const bool is_pioneer =
-        species.ecology.guild == Guild::ectomycorrhizal && species.ecology.ring.pioneer;
-    return (is_pioneer ? rounds : rounds - 1) * longest_life * species.ecology.genet.life +
-           litter_years;
 }
 
 double suitability(const Ecology& ecology, const Site& site) {
@@ -583,31 +588,39 @@ FungusSubstrate substrate_at(const Surroundings& around, const FungusSpecies& sp
 std::vector<Genet> genets_of(const Fungi& fungi, CellIndex block, int epoch,
                              const Surroundings& around) {
     std::vector<Genet> genets;
-    std::uint32_t kinds = 0;
-    for (const FungusSpecies& species : fungi.species)
-        if (species.ecology.guild != Guild::wood) kinds |= species.kinds;
-    const TreeGrid grid(around.trees, block, kinds);
-    std::vector<const DeadWood*> trunks;
-    for (const DeadWood& wood : around.wood)
-        if (may_lie_in(wood, block)) trunks.push_back(&wood);
-    const WorldTime begin = time_of(epoch * epoch_years), end = time_of((epoch + 1) * epoch_years);
-    std::vector<Genet> of_trunk;
+    const Region region(block);
+    const TreeGrid grid(around.trees, region, kinds_of_ground(fungi));
     for (std::size_t i = 0; i < fungi.species.size(); ++i) {
         const auto index = static_cast<std::uint8_t>(i);
-        if (fungi.species[i].ecology.guild != Guild::wood) {
-            GroundMycelia(fungi, index, block, epoch, around).append_to(genets, &grid);
-            continue;
-        }
-        for (const DeadWood* wood : trunks) {
-            if (!fungi.species[i].lives_with(wood->kind) || wood->gone <= begin ||
-                wood->died >= end)
-                continue;
-            of_trunk.clear();
-            append_of_trunk(fungi, index, *wood, end, of_trunk);
-            for (const Genet& genet : of_trunk)
-                if (block_at(genet.centre) == block && genet.born < end && genet.died > begin)
-                    genets.push_back(genet);
-        }
+        if (fungi.species[i].ecology.guild == Guild::wood)
+            append_of_wood(fungi, index, region, epoch, around.wood, genets);
+        else
+            GroundMycelia(fungi, index, region, epoch, around).append_to(genets, &grid);
+    }
+    std::erase_if(genets, [&](const Genet& genet) { return !region.contains(genet.centre); });
+    std::ranges::sort(genets, {}, &Genet::id);
+    return genets;
+}
+
+std::vector<Genet> genets_round(const Fungi& fungi, const Region& region, int epoch,
+                                const Surroundings& around) {
+    std::vector<Genet> genets;
+    const double spacing = spacing_of(fungi.species);
+    double margin = 0.0;
+    for (const FungusSpecies& species : fungi.species)
+        if (species.ecology.guild != Guild::wood)
+            margin = std::max(margin, mycelia_within(species.ecology, spacing));
+    const TreeGrid grid(around.trees, region.grown(margin), kinds_of_ground(fungi));
+    for (std::size_t i = 0; i < fungi.species.size(); ++i) {
+        const auto index = static_cast<std::uint8_t>(i);
+        const Ecology& ecology = fungi.species[i].ecology;
+        if (ecology.guild == Guild::wood)
+            append_of_wood(fungi, index, region.grown(trunks_within(ecology, spacing)), epoch,
+                           around.wood, genets);
+        else
+            GroundMycelia(fungi, index, region.grown(mycelia_within(ecology, spacing)), epoch,
+                          around)
+                .append_to(genets, &grid);
     }
     std::ranges::sort(genets, {}, &Genet::id);
     return genets;

@@ -11,6 +11,7 @@
 
 #include "core/model/ecology.h"
 #include "core/world/records.h"
+#include "core/world/region.h"
 #include "core/world/site.h"
 
 namespace sporeprint {
@@ -58,7 +59,8 @@ struct Fungi {
     const Habitat& habitat;
 };
 
-/// Trees and dead wood of a block and its eight neighbours, in any order. More of either changes nothing.
+/// Trees and dead wood of a block and its eight neighbours, or those that influence.h names, in any order. More of
+/// either changes nothing.
 struct Surroundings {
     std::span<const StandTree> trees;
     std::span<const DeadWood> wood;
@@ -67,8 +69,8 @@ struct Surroundings {
 /// Age from which on trees have the mycorrhizas of grown ones, and litter lies under them, years.
 inline constexpr double age_of_host = 12.0;
 
-/// Returns for how many years before an epoch the trees must be known that are to be passed for its mycelia.
-[[nodiscard]] double history_of(const FungusSpecies& species);
+/// No mycelium of the ground begins nearer to the centre of another one of its species, metres [DahlbergStenlid1990].
+inline constexpr double founding_distance = 1.5;
 
 /// Returns the smallest of the responses of a species to a site.
 [[nodiscard]] double suitability(const Ecology& ecology, const Site& site);
@@ -107,9 +109,14 @@ struct FungusSubstrate {
 /// than three times the reach away has no influence; an odd number of rounds leaves none inside another.
 ///
 /// epoch   the years from 40 epoch to 40 epoch + 39; may be negative
-/// around  all trees that live, and all wood that lasts, at some time from history_of() before the epoch to its end
+/// around  trees and wood of all times
 /// cost    about 1 ms for 12 species
 [[nodiscard]] std::vector<Genet> genets_of(const Fungi& fungi, CellIndex block, int epoch,
                                            const Surroundings& around);
+
+/// Returns the mycelia on which the fruit bodies in a rectangle depend, among them perhaps others: those of the ground
+/// as near as influence.h says, and all of the trunks that lie or stand as near. Those of genets_of() are the same.
+[[nodiscard]] std::vector<Genet> genets_round(const Fungi& fungi, const Region& region, int epoch,
+                                              const Surroundings& around);
 
 }  // namespace sporeprint

@@ -7,25 +7,13 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/world/cell_random.h"
+#include "core/world/fruiting_weather.h"
+#include "core/world/influence.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
 
 namespace {
-
-/// Rain is that of so many days; half of the bodies come at so many mm of it.
-constexpr double days_of_rain = 12.0, half_rain = 20.0, rain_width = 5.0;
-
-/// Wetness at which half of the bodies come.
-constexpr double half_wetness = 0.5, wetness_width = 0.07;
-
-/// Nights are colder than the mean of the day by this much, K. Below this temperature three nights in a row stop
-/// species that tolerate no frost; others tolerate as much more as they tolerate frost.
-constexpr double colder_nights = 4.0, cold_night = 5.5;
-constexpr int cold_nights = 3;
-
-/// Days before and after the months of fruiting.
-constexpr double soft_days = 10.0;
 
 /// Share of good days that a mycelium needs per day, and the days between two flushes.
 constexpr double flush_rate = 0.12;
@@ -43,14 +31,6 @@ constexpr double ring_per_crown = 0.7, ring_variation = 0.25;
 
 /// A second ring, of bodies nearer to the host.
 constexpr double inner_ring = 0.27;
-
-/// How near two bodies come, in radii of their caps: those in tufts crowd.
-constexpr double core = 0.5, core_in_tufts = 0.2;
-
-/// Bells lie within three standard deviations.
-constexpr double widest = 3.0;
-
-double logistic(double x) { return 1.0 / (1.0 + exponential(-x)); }
 
 std::int32_t units(double value) {
     return static_cast<std::int32_t>(std::floor(value * units_of_metre + 0.5));
@@ -72,78 +52,11 @@ class AtLeastOne {
     explicit AtLeastOne(double mean)
         : more_(std::max(0.0, mean - 1.0)), none_(exponential(-more_)) {}
     /// Returns the number of a draw, 0 <= draw < 1.
-    [[nodiscard]] int operator()(double draw) const {
-        constexpr int most = 300;
-        double term = none_, sum = term;
-        int number = 1;
-        while (draw >= sum && number < most) {
-            term *= more_ / number;
-            ++number;
-            sum += term;
-        }
-        return number;
-    }
+    [[nodiscard]] int operator()(double draw) const { return 1 + poisson(more_, none_, draw, 299); }
 
   private:
     double more_ = 0.0, none_ = 1.0;
 };
-
-double core_of(const FungusSpecies& species) {
-    const bool is_tufted = species.ecology.fruit.tufts > 1.2;
-    return species.cap_radius * (is_tufted ? core_in_tufts : core);
-}
-
-/// Returns for each day of a year how far the months allow a species to fruit.
-std::array<double, days_of_year> month_gate(std::uint16_t months) {
-    constexpr std::array<int, 12> lengths{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    std::array<double, days_of_year> gate{};
-    if ((months & 0xFFFU) == 0) {
-        gate.fill(1.0);
-        return gate;
-    }
-    std::array<bool, days_of_year> fruits{};
-    std::size_t day = 0;
-    for (std::size_t month = 0; month < lengths.size(); ++month)
-        for (int i = 0; i < lengths[month]; ++i) fruits[day++] = (months >> month & 1U) != 0;
-    constexpr auto reach = static_cast<int>(soft_days);
-    for (int d = 0; d < days_of_year; ++d)
-        for (int shift = -reach; shift <= reach; ++shift) {
-            const int other = (d + shift + days_of_year) % days_of_year;
-            if (!fruits[static_cast<std::size_t>(other)]) continue;
-            double& value = gate[static_cast<std::size_t>(d)];
-            value = std::max(value, 1.0 - std::abs(shift) / soft_days);
-        }
-    return gate;
-}
-
-/// Two years of weather, counted from the first day of the second one.
-class WeatherBefore {
-  public:
-    WeatherBefore(const WeatherYear& before, const WeatherYear& year)
-        : before_(before), year_(year) {}
-    const WeatherDay& operator[](int day) const {
-        return day >= 0 ? year_[static_cast<std::size_t>(day)]
-                        : before_[static_cast<std::size_t>(day + days_of_year)];
-    }
-
-  private:
-    const WeatherYear &before_, &year_;
-};
-
-/// Returns the weights of the rain of the days before, the nearest first: a gamma distribution of shape 3. Their sum is
-/// days_of_rain.
-std::vector<double> rain_weights(int memory) {
-    std::vector<double> weights;
-    weights.reserve(static_cast<std::size_t>(4 * memory));
-    double sum = 0.0;
-    for (int day = 0; day < 4 * memory; ++day) {
-        const double time = (day + 0.5) / memory;
-        weights.push_back(time * time * exponential(-3.0 * time));
-        sum += weights.back();
-    }
-    for (double& weight : weights) weight *= days_of_rain / sum;
-    return weights;
-}
 
 /// The arcs that a ring of fruit bodies is broken into: of equal length, at uneven distances.
 class Arcs {
@@ -191,10 +104,10 @@ struct Cluster {
     WorldPoint at;
 };
 
-/// The fruit bodies of one block.
+/// The fruit bodies of one rectangle.
 class Season {
   public:
-    Season(const Fungi& fungi, const BlockYear& input, const SeasonConditions& conditions,
+    Season(const Fungi& fungi, const RegionYear& input, const SeasonConditions& conditions,
            double abundance)
         : fungi_(fungi),
           input_(input),
@@ -202,14 +115,9 @@ class Season {
           abundance_(abundance),
           begin_(time_of(input.year)),
           end_(time_of(input.year + 1)),
-          west_(std::int64_t{input.block.x} * block_side * units_of_metre),
-          south_(std::int64_t{input.block.y} * block_side * units_of_metre) {
+          spacing_(spacing_of(fungi.species)) {
         for (std::size_t i = 0; i <= gate_steps; ++i)
             gates_.push_back(moisture_gate(static_cast<double>(i) / gate_steps));
-        for (const FungusSpecies& species : fungi.species)
-            spacing_ = std::max(spacing_, 2.0 * core_of(species));
-        // The widest ring, 1.5 crowns of 5 m, its spread and that of the clusters on it.
-        constexpr double farthest_host = 28.0;
         for (const StandTree& tree : input.around.trees)
             if (tree.lives_at(begin_) && years_between(tree.born, end_) >= age_of_host &&
                 is_near(tree.at, farthest_host))
@@ -243,8 +151,7 @@ class Season {
                     fruit_on_wood(*genet);
         }
         std::vector<FruitBody> out = spaced(sprouts_);
-        std::erase_if(out,
-                      [&](const FruitBody& body) { return !(block_at(body.at) == input_.block); });
+        std::erase_if(out, [&](const FruitBody& body) { return !input_.region.contains(body.at); });
         out.insert(out.end(), brackets_.begin(), brackets_.end());
         std::ranges::sort(out, {}, &FruitBody::id);
         return out;
@@ -263,27 +170,21 @@ class Season {
     };
     static constexpr std::size_t gate_steps = 1024;
 
-    /// Returns whether a place is in the block or at most so many metres from it in each direction.
+    /// Returns whether a place is in the rectangle or at most so many metres from it in each direction.
     [[nodiscard]] bool is_near(WorldPoint place, double most) const {
-        const auto margin = static_cast<std::int64_t>(std::ceil(most * units_of_metre));
-        constexpr std::int64_t size = std::int64_t{block_side} * units_of_metre;
-        const std::int64_t x = place.x - west_, y = place.y - south_;
-        return x >= -margin && y >= -margin && x < size + margin && y < size + margin;
+        return input_.region.grown(most).contains(place);
     }
 
-    /// Collects the mycelia of the species that may have bodies in the block or own places there, and the days on which
-    /// the weather allows them to fruit.
+    /// Collects the mycelia of the species that may have bodies in the rectangle or own places there, and the days on
+    /// which the weather allows them to fruit.
     void gather_genets() {
         genets_.clear();
         const Ecology& ecology = species_->ecology;
-        scatter_ = widest * (ecology.fruit.cluster_spread + ecology.fruit.tuft_spread);
-        constexpr double longest_trunk = 32.0;
-        const double most =
-            ecology.guild == Guild::wood
-                ? longest_trunk
-                : 2.0 * ecology.genet.reach + widest * ecology.ring.spread + scatter_ + spacing_;
+        scatter_ = scatter_of(ecology);
+        const Region wide = input_.region.grown(mycelia_within(ecology, spacing_));
         for (const Genet* genet : of_species_[index_])
-            if (is_near(genet->centre, most)) genets_.push_back(genet);
+            if (ecology.guild == Guild::wood || wide.contains(genet->centre))
+                genets_.push_back(genet);
         good_days_.clear();
         for (int day = 0; day < days_of_year; ++day) {
             const auto i = static_cast<std::size_t>(day);
@@ -382,14 +283,14 @@ class Season {
     void fruit_on_ground(const Genet& genet) {
         const Ecology& ecology = species_->ecology;
         if (!is_near(genet.centre,
-                     genet.reach + scatter_ + spacing_ + widest * ecology.ring.spread))
+                     genet.reach + scatter_ + spacing_ + widest_bell * ecology.ring.spread))
             return;
         const Site site = fungi_.habitat.site_at(genet.centre, begin_);
         const double suits = suitability(ecology, site);
         if (!(suits > 0.0)) return;
         const std::vector<int> days = flushes_of(genet, site);
         if (days.empty()) return;
-        gather_rivals(genet, scatter_ + widest * ecology.ring.spread);
+        gather_rivals(genet, scatter_ + widest_bell * ecology.ring.spread);
         for (std::size_t i = 0; i < days.size(); ++i) {
             const WorldTime flush = time_of(input_.year, days[i] + 1);
             if (ecology.guild == Guild::ectomycorrhizal && !ecology.ring.pioneer)
@@ -434,7 +335,7 @@ class Season {
         const RingHabit& ring = ecology.ring;
         const double radius = radius_at(genet, flush);
         constexpr double widest_ring = 7.5;  // 1.5 crowns of 5 m
-        const std::int32_t window = units(radius + widest_ring + widest * ring.spread);
+        const std::int32_t window = units(radius + widest_ring + widest_bell * ring.spread);
         for (auto host =
                  std::ranges::lower_bound(trees_, genet.centre.x - window, {},
                                           [](const Host& other) { return other.tree->at.x; });
@@ -442,7 +343,7 @@ class Season {
             const StandTree& tree = *host->tree;
             if (!species_->lives_with(tree.kind) ||
                 distance(tree.at, genet.centre) >
-                    radius + 1.5 * host->crown + widest * ring.spread ||
+                    radius + 1.5 * host->crown + widest_bell * ring.spread ||
                 !tree.lives_at(flush) || years_between(tree.born, flush) < age_of_host)
                 continue;
             CellRandom of_tree(fungi_.seed, purposes::mycelium_arcs, species_->stream, tree.id);
@@ -450,7 +351,7 @@ class Season {
             if (host->ring < 0.0)
                 host->ring = ring_per_crown * host->crown * exponential(ring_variation * wide);
             const double middle = host->ring;
-            const double most = middle + widest * ring.spread;
+            const double most = middle + widest_bell * ring.spread;
             if (distance(tree.at, genet.centre) > radius + most ||
                 !is_near(tree.at, most + scatter_ + spacing_))
                 continue;
@@ -516,7 +417,7 @@ class Season {
         return std::min(wood.length, distance(wood.at, genet.centre));
     }
 
-    /// Returns whether bodies on the part of a trunk that a mycelium reaches may stand in the block or near it.
+    /// Returns whether bodies on the part of a trunk that a mycelium reaches may stand in the rectangle or near it.
     [[nodiscard]] bool is_trunk_near(const DeadWood& wood, const Genet& genet) const {
         const double margin = scatter_ + spacing_ + 2.0 * wood.radius;
         return (wood.fell > begin_ || species_->ecology.body.perennial) && is_near(wood.at, margin)
@@ -655,7 +556,7 @@ class Season {
                     add_bracket_cluster(genet, *wood, {appears, time, {}}, place, random, sprouts);
             });
         for (const FruitBody& body : spaced(sprouts))
-            if (body.emerged < end_ && body.gone > begin_ && block_at(body.at) == input_.block)
+            if (body.emerged < end_ && body.gone > begin_ && input_.region.contains(body.at))
                 brackets_.push_back(body);
     }
 
@@ -713,13 +614,12 @@ class Season {
     }
 
     const Fungi& fungi_;
-    const BlockYear& input_;
+    const RegionYear& input_;
     const SeasonConditions& conditions_;
     double abundance_;
     WorldTime begin_, end_;
-    std::int64_t west_, south_;
+    double spacing_, scatter_ = 0.0;
     std::vector<double> gates_;
-    double spacing_ = 0.0, scatter_ = 0.0;
     std::vector<Host> trees_;
     std::vector<const DeadWood*> wood_;
     std::size_t index_ = 0;
@@ -734,40 +634,7 @@ class Season {
 
 }  // namespace
 
-double moisture_gate(double wetness) { return logistic((wetness - half_wetness) / wetness_width); }
-
-SeasonConditions conditions_of(std::span<const FungusSpecies> species, const WeatherYear& before,
-                               const WeatherYear& year) {
-    const WeatherBefore weather(before, year);
-    SeasonConditions out;
-    out.species.resize(species.size());
-    for (std::size_t i = 0; i < species.size(); ++i) {
-        const Ecology& ecology = species[i].ecology;
-        const std::array<double, days_of_year> months = month_gate(species[i].months);
-        const std::vector<double> weights = rain_weights(ecology.fruit.rain_memory);
-        const double cold =
-            colder_nights + cold_night + std::min(0.0, ecology.temperature.tolerates.from);
-        for (int day = 0; day < days_of_year; ++day) {
-            FruitingDay& gate = out.species[i][static_cast<std::size_t>(day)];
-            gate.month = months[static_cast<std::size_t>(day)];
-            double mean = 0.0;
-            for (int back = 0; back < 5; ++back) mean += weather[day - back].temperature;
-            gate.temperature = ecology.temperature.at(mean / 5.0);
-            bool is_cold = true;
-            for (int back = 0; back < cold_nights; ++back)
-                is_cold = is_cold && weather[day - back].temperature < cold;
-            gate.cold = is_cold ? 0.0 : 1.0;
-            double rain = 0.0;
-            int back = 0;
-            for (const double weight : weights) rain += weight * weather[day - back++].rain;
-            gate.rain = logistic((rain - half_rain) / rain_width);
-        }
-    }
-    for (std::size_t day = 0; day < year.size(); ++day) out.soil_water[day] = year[day].soil_water;
-    return out;
-}
-
-std::vector<FruitBody> season_of(const Fungi& fungi, const BlockYear& input,
+std::vector<FruitBody> season_of(const Fungi& fungi, const RegionYear& input,
                                  const SeasonConditions& conditions, double abundance) {
     return Season(fungi, input, conditions, abundance).bodies();
 }
@@ -779,6 +646,7 @@ double age_at(const FruitBody& body, WorldTime time) {
     if (time >= body.matured)
         return mature + (1.0 - mature) * (time - body.matured) / (body.gone - body.matured);
     const double share = static_cast<double>(time - body.emerged) / (body.matured - body.emerged);
+    const auto logistic = [](double x) { return 1.0 / (1.0 + exponential(-x)); };
     return mature * logistic(steepness * (share - 0.5)) / logistic(0.5 * steepness);
 }
 
@@ -796,47 +664,6 @@ std::vector<std::array<std::uint32_t, days_of_year>> daily_counts(std::span<cons
         }
     }
     return counts;
-}
-
-Condition Limits::limiting() const {
-    return static_cast<Condition>(std::ranges::min_element(values) - values.begin());
-}
-
-Limits limits_at(const Fungi& fungi, const BlockYear& input, const SeasonConditions& conditions,
-                 std::size_t species, WorldPoint place, int day) {
-    const FungusSpecies& fungus = fungi.species[species];
-    const Ecology& ecology = fungus.ecology;
-    const WorldTime time = time_of(input.year, day);
-    const Site site = fungi.habitat.site_at(place, time);
-    const auto index = static_cast<std::uint8_t>(species);
-    Limits out;
-    const auto set = [&](Condition condition, double value) {
-        out.values[static_cast<std::size_t>(condition)] = value;
-    };
-    set(Condition::establishment, fungi.habitat.establishment(species, place, time));
-    set(Condition::light, ecology.light.at(site.light));
-    set(Condition::wetness, ecology.wetness.at(site.wetness));
-    set(Condition::acidity, ecology.acidity.at(site.acidity));
-    const FungusSubstrate substrate = substrate_at(input.around, fungus, place, time);
-    set(Condition::substrate, substrate.is_there ? 1.0 : 0.0);
-    const bool has_mycelium =
-        ecology.guild == Guild::wood
-            ? std::ranges::any_of(input.genets,
-                                  [&](const Genet& genet) {
-                                      return genet.species == index && genet.lives_at(time) &&
-                                             substrate.is_there && genet.host == substrate.record;
-                                  })
-            : owner_of(input.genets, index, place, time) != nullptr;
-    set(Condition::mycelium, has_mycelium ? 1.0 : 0.0);
-    const auto at = static_cast<std::size_t>(day - 1);
-    const FruitingDay& weather = conditions.species[species][at];
-    set(Condition::temperature, weather.temperature);
-    set(Condition::rain, weather.rain);
-    set(Condition::month, weather.month);
-    set(Condition::cold, weather.cold);
-    set(Condition::moisture,
-        moisture_gate(fungi.habitat.wetness_on(site, conditions.soil_water[at])));
-    return out;
 }
 
 }  // namespace sporeprint

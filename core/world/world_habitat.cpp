@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/world/tree_growth.h"
 
@@ -9,14 +10,11 @@ namespace sporeprint {
 
 namespace {
 
-/// Fungi of a block depend on the light of places this far beyond it, which crowns within shade_reach take, metres.
-constexpr double light_margin = 32.0 + shade_reach;
+/// Fungi of a block depend on the light of places this far beyond it, metres.
+constexpr double light_margin = 32.0;
 
-bool is_near(WorldPoint at, CellIndex block) {
-    const double x = metres(at.x) - block.x * block_side, y = metres(at.y) - block.y * block_side;
-    return x >= -light_margin && x < block_side + light_margin && y >= -light_margin &&
-           y < block_side + light_margin;
-}
+/// Squares of 32 m in which light is computed together, beyond that.
+constexpr std::int32_t square_bits = 21;
 
 /// Returns the number of the years that a moment belongs to.
 int step_of(WorldTime time) {
@@ -36,31 +34,49 @@ Crown crown_of(const World& world, const StandTree& tree, WorldTime time) {
             .density = ecology.leaf_density / leaf_area_density};
 }
 
+WorldHabitat::WorldHabitat(const World& world, const Region& region, TreesIn trees)
+    : world_(world), region_(region), trees_(std::move(trees)) {}
+
 WorldHabitat::WorldHabitat(const World& world, CellIndex block, std::span<const StandTree> trees)
-    : world_(world) {
-    for (const StandTree& tree : trees)
-        if (is_near(tree.at, block)) trees_.push_back(&tree);
-    std::sort(trees_.begin(), trees_.end(),
+    : WorldHabitat(world, Region(block).grown(light_margin),
+                   [trees](const Region&) { return std::vector{trees}; }) {}
+
+std::vector<Crown> WorldHabitat::crowns_over(const Region& region, WorldTime time) const {
+    const Region wide = region.grown(shade_reach);
+    std::vector<const StandTree*> trees;
+    for (const std::span<const StandTree> list : trees_(wide))
+        for (const StandTree& tree : list)
+            if (tree.born < time && time < tree.died && wide.contains(tree.at))
+                trees.push_back(&tree);
+    std::sort(trees.begin(), trees.end(),
               [](const StandTree* a, const StandTree* b) { return a->id < b->id; });
+    std::vector<Crown> crowns;
+    crowns.reserve(trees.size());
+    for (const StandTree* tree : trees) crowns.push_back(crown_of(world_, *tree, time));
+    return crowns;
 }
 
-const CanopyLight& WorldHabitat::canopy_at(WorldTime time) const {
+const CanopyLight& WorldHabitat::canopy_at(WorldPoint place, WorldTime time) const {
     const int step = step_of(time);
-    const auto found = canopies_.find(step);
-    if (found != canopies_.end()) return found->second;
     const WorldTime middle = step * light_years * ticks_of_year + light_years * ticks_of_year / 2;
-    std::vector<Crown> crowns;
-    crowns.reserve(trees_.size());
-    for (const StandTree* tree : trees_)
-        if (tree->lives_at(middle) && middle > tree->born)
-            crowns.push_back(crown_of(world_, *tree, middle));
-    return canopies_.emplace(step, CanopyLight(crowns)).first->second;
+    if (region_.contains(place)) {
+        const auto found = canopies_.find(step);
+        if (found != canopies_.end()) return found->second;
+        return canopies_.emplace(step, CanopyLight(crowns_over(region_, middle))).first->second;
+    }
+    const std::int32_t column = place.x >> square_bits, row = place.y >> square_bits;
+    const std::array<std::int32_t, 3> key{column, row, step};
+    const auto found = farther_.find(key);
+    if (found != farther_.end()) return found->second;
+    constexpr std::int32_t side = 1 << square_bits;
+    const Region square(column * side, row * side, (column + 1) * side, (row + 1) * side);
+    return farther_.emplace(key, CanopyLight(crowns_over(square, middle))).first->second;
 }
 
 Site WorldHabitat::site_at(WorldPoint place, WorldTime time) const {
     Site site = world_.site_at(place);
-    site.light *=
-        canopy_at(time).at(metres(place.x), metres(place.y), world_.place_at(place).height, 1.0);
+    site.light *= canopy_at(place, time)
+                      .at(metres(place.x), metres(place.y), world_.place_at(place).height, 1.0);
     return site;
 }
 

@@ -336,7 +336,7 @@ Body block_body(const WorldParams& params, int year) {
     const SeasonConditions conditions =
         conditions_of(world.species, weather_of(params.climate, params.seed, year - 1),
                       weather_of(params.climate, params.seed, year));
-    for (const FruitBody& body : season_of(fungi, {{0, 0}, year, genets, around}, conditions, 1.0))
+    for (const FruitBody& body : season_of(fungi, {CellIndex{0, 0}, year, genets, around}, conditions, 1.0))
         append_place(body.id, body.at, body.emerged, body.gone);
     return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
 }

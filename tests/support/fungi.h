@@ -39,7 +39,7 @@ inline double distance(WorldPoint a, WorldPoint b) {
 }
 
 /// Trees one after another on the cells of a grid, and the trunks that they leave.
-struct Stand {
+struct Grove {
     std::vector<StandTree> trees;
     std::vector<DeadWood> wood;
     [[nodiscard]] Surroundings around() const { return {trees, wood}; }
@@ -47,8 +47,8 @@ struct Stand {
 
 /// Returns the trees of blocks west to east and south to north, 400 per hectare: one in each cell of 5 m, each followed
 /// by the next one.
-inline Stand stand_of(int west, int south, int east, int north, int first_year, int last_year) {
-    Stand stand;
+inline Grove stand_of(int west, int south, int east, int north, int first_year, int last_year) {
+    Grove stand;
     constexpr double cell = 5.0;
     const auto first = [](int block) { return static_cast<int>(std::floor(block * 64 / cell)); };
     for (int y = first(south); y < first(north + 1); ++y)

@@ -125,16 +125,31 @@ TEST(WorldParts, HaveNoBodyButBracketsWithoutRain) {
         EXPECT_TRUE(world.species[body.species].ecology.body.perennial);
 }
 
-TEST(WorldParts, OfTreesAreThoseOfAllBlocksRoundARectangle) {
+TEST(WorldParts, OfTreesAreThoseOfAllBlocksThatMayShadeARectangle) {
     const World world = world_with(beech());
-    const Block around = blocks_round(world, {10, 10, 20, 20}, shared());
+    const Block around = blocks_round(world, {30, 30, 40, 40}, shared());
     EXPECT_TRUE(std::is_sorted(around.trees.begin(), around.trees.end(),
                                [](const StandTree& a, const StandTree& b) { return a.id < b.id; }));
-    const auto middle = block_of_world(world, {0, 0}, shared());
-    std::size_t found = 0;
-    for (const StandTree& tree : around.trees) found += block_at(tree.at) == CellIndex{0, 0};
-    EXPECT_EQ(found, middle->trees.size());
-    EXPECT_GT(around.trees.size(), 5 * found);
+    std::map<CellIndex, std::size_t> found;
+    for (const StandTree& tree : around.trees) ++found[block_at(tree.at)];
+    EXPECT_EQ(found.size(), 9U) << "42 m are more than to the next block in all directions";
+    for (const auto& [block, number] : found)
+        EXPECT_EQ(number, block_of_world(world, block, shared())->trees.size());
+    EXPECT_LT(blocks_round(world, {-5, -5, 5, 5}, shared()).trees.size(), around.trees.size());
+}
+
+TEST(WorldParts, OfASmallRectangleAreThoseOfItsBlock) {
+    const World world = world_with(beech());
+    for (const int year : {0, 80}) {
+        const auto block = season_of_world(world, {0, 0}, year, shared());
+        for (const WorldBox& box : {WorldBox{3, 50, 20, 60.5}, WorldBox{60, 60, 63, 63}}) {
+            std::vector<FruitBody> inside;
+            for (const FruitBody& body : block->bodies)
+                if (contains(box, body.at)) inside.push_back(body);
+            Cached other;
+            EXPECT_EQ(bodies_of_year(world, box, year, other.services), inside) << year;
+        }
+    }
 }
 
 TEST(WorldParts, LookUpSpeciesWithTheirMonths) {

@@ -23,18 +23,18 @@ using namespace fungi;
 constexpr int epoch = 2;
 
 /// A stand that is old enough for the history of all species, five blocks by five about block (0, 0).
-const Stand& stand() {
-    static const Stand trees = stand_of(-2, -2, 2, 2, -130, 170);
+const Grove& stand() {
+    static const Grove trees = stand_of(-2, -2, 2, 2, -130, 170);
     return trees;
 }
 
 /// Returns the trees and the wood of some blocks about one.
-Stand near(const Stand& all, CellIndex block, int blocks) {
+Grove near(const Grove& all, CellIndex block, int blocks) {
     const auto is_in = [&](WorldPoint place) {
         const CellIndex other = block_at(place);
         return std::abs(other.x - block.x) <= blocks && std::abs(other.y - block.y) <= blocks;
     };
-    Stand out;
+    Grove out;
     for (const StandTree& tree : all.trees)
         if (is_in(tree.at)) out.trees.push_back(tree);
     for (const DeadWood& wood : all.wood)
@@ -151,26 +151,12 @@ TEST(Genets, DependOnNoOrderAndOnNothingBeyondNeighbours) {
     species.push_back(laccaria());
     const Fungi fungi{5, species, habitat};
     const std::vector<Genet> of_all = genets_of(fungi, {0, 0}, epoch, stand().around());
-    Stand nine = near(stand(), {0, 0}, 1);
+    Grove nine = near(stand(), {0, 0}, 1);
     std::ranges::reverse(nine.trees);
     std::ranges::reverse(nine.wood);
     EXPECT_EQ(genets_of(fungi, {0, 0}, epoch, nine.around()), of_all);
     EXPECT_TRUE(std::ranges::is_sorted(of_all, {}, &Genet::id));
     for (const Genet& genet : of_all) EXPECT_EQ(block_at(genet.centre), (CellIndex{0, 0}));
-}
-
-TEST(Genets, NeedNoTreesThatDiedBeforeTheirHistory) {
-    const EvenHabitat habitat;
-    std::vector<FungusSpecies> species{boletus(), clitocybe(), laccaria()};
-    double history = 0.0;
-    for (const FungusSpecies& one : species) history = std::max(history, history_of(one));
-    Stand recent = stand();
-    const WorldTime begin = time_of(80) - static_cast<WorldTime>(history * ticks_of_year);
-    std::erase_if(recent.trees, [&](const StandTree& tree) { return tree.died <= begin; });
-    ASSERT_LT(recent.trees.size(), stand().trees.size());
-    const Fungi fungi{5, species, habitat};
-    EXPECT_EQ(genets_of(fungi, {0, 0}, epoch, recent.around()),
-              genets_of(fungi, {0, 0}, epoch, stand().around()));
 }
 
 /// Places where spores arrive only within some metres of the block (0, 0).

@@ -13,46 +13,12 @@
 
 #include "core/math/elementary.h"
 #include "core/world/tree_growth.h"
-#include "tests/support/fungi.h"
+#include "tests/support/forest.h"
 
 namespace sporeprint::season_test {
 namespace {
 
 using namespace fungi;
-
-constexpr ClimateParams beech{
-    .latitude_deg = 51, .temperature = 8.5, .swing = 9, .rain = 850, .rain_days = 0.44};
-
-SeasonConditions conditions_in(std::span<const FungusSpecies> species, const ClimateParams& climate,
-                               std::uint32_t seed, int year) {
-    return conditions_of(species, weather_of(climate, seed, year - 1),
-                         weather_of(climate, seed, year));
-}
-
-/// A forest of five blocks by five and the mycelia of the middle three by three, years 80 to 119.
-struct Forest {
-    EvenHabitat habitat;
-    std::vector<FungusSpecies> species = forest_species();
-    Stand stand = stand_of(-2, -2, 2, 2, -130, 170);
-    std::vector<Genet> genets;
-
-    Forest() {
-        habitat.site.light = 0.9;  // so that turf has its fungi too
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x) {
-                const std::vector<Genet> more = genets_of(fungi(), {x, y}, 2, stand.around());
-                genets.insert(genets.end(), more.begin(), more.end());
-            }
-    }
-    [[nodiscard]] Fungi fungi() const { return {7, species, habitat}; }
-    [[nodiscard]] BlockYear in(int year, CellIndex block = {0, 0}) const {
-        return {block, year, genets, stand.around()};
-    }
-    [[nodiscard]] std::vector<FruitBody> bodies(int year, double abundance = 1.0,
-                                                const ClimateParams& climate = beech) const {
-        return season_of(fungi(), in(year), conditions_in(species, climate, 7, year), abundance);
-    }
-};
 
 const Forest& forest() {
     static const Forest one;
@@ -126,7 +92,7 @@ std::array<std::vector<Pattern>, 3> patterns_about_a_birch() {
         const Fungi fungi{seed, species, habitat};
         const Surroundings around{trees, {}};
         const std::vector<Genet> genets = genets_of(fungi, {0, 0}, 0, around);
-        const std::vector<FruitBody> bodies = season_of(fungi, {{0, 0}, 5, genets, around},
+        const std::vector<FruitBody> bodies = season_of(fungi, {CellIndex{0, 0}, 5, genets, around},
                                                         conditions_in(species, wet, seed, 5), 1.0);
         std::array<std::vector<WorldPoint>, 3> points;
         for (const FruitBody& body : bodies)
@@ -280,8 +246,9 @@ TEST(Season, WithoutRainHasNoBodiesButPerennialBrackets) {
 TEST(Season, WithoutHostsHasNoneOfTheirBodies) {
     const Forest& all = forest();
     const std::vector<Genet> genets = genets_of(all.fungi(), {0, 0}, 2, {});
-    const std::vector<FruitBody> bodies = season_of(
-        all.fungi(), {{0, 0}, 100, genets, {}}, conditions_in(all.species, beech, 7, 100), 10.0);
+    const std::vector<FruitBody> bodies =
+        season_of(all.fungi(), {CellIndex{0, 0}, 100, genets, {}},
+                  conditions_in(all.species, beech, 7, 100), 10.0);
     for (const FruitBody& body : bodies)
         EXPECT_EQ(all.species[body.species].ecology.guild, Guild::grass);
 }
@@ -462,7 +429,7 @@ std::vector<FruitBody> bodies_of_rings(const std::vector<Genet>& genets, int yea
     species.ecology.fruit.tuft_spread = 0.0;
     species.ecology.fruit.clusters = 1.0;
     const std::vector<FungusSpecies> all{species};
-    return season_of({3, all, habitat}, {{0, 0}, year, genets, {}},
+    return season_of({3, all, habitat}, {CellIndex{0, 0}, year, genets, {}},
                      conditions_in(all, beech, 3, year), 3.0);
 }
 
@@ -519,69 +486,6 @@ TEST(Rings, StopWhereTheyMeet) {
     EXPECT_GT(beside, 0);
 }
 
-TEST(Conditions, OpenInTheMonthsAndTenDaysBeforeAndAfter) {
-    std::vector<FungusSpecies> species{boletus(), boletus("b")};
-    species[0].months = 0b000011000000;  // July, August
-    species[1].months = 0b100000000001;  // December, January
-    const SeasonConditions conditions = conditions_in(species, beech, 1, 50);
-    const auto month = [&](std::size_t which, int day) {
-        return conditions.species[which][static_cast<std::size_t>(day - 1)].month;
-    };
-    EXPECT_EQ(month(0, 182), 1.0);
-    EXPECT_EQ(month(0, 243), 1.0);
-    EXPECT_DOUBLE_EQ(month(0, 181), 0.9);
-    EXPECT_DOUBLE_EQ(month(0, 248), 0.5);
-    EXPECT_EQ(month(0, 172), 0.0);
-    EXPECT_EQ(month(0, 253), 0.0);
-    EXPECT_EQ(month(1, 1), 1.0);
-    EXPECT_EQ(month(1, 365), 1.0);
-    EXPECT_DOUBLE_EQ(month(1, 36), 0.5);
-}
-
-/// Returns weather that is the same on all days.
-WeatherYear even_weather(double temperature, double rain) {
-    WeatherYear year;
-    year.fill({.rain = rain, .temperature = temperature, .evaporation = 1.0, .soil_water = 80.0});
-    return year;
-}
-
-TEST(Conditions, AreThoseOfEvenWeather) {
-    const std::vector<FungusSpecies> species{boletus()};
-    const auto at = [&](double temperature, double rain) {
-        const WeatherYear year = even_weather(temperature, rain);
-        return conditions_of(species, year, year).species[0][200];
-    };
-    // Half of them open at 20 mm in twelve days.
-    EXPECT_NEAR(at(14.0, 20.0 / 12.0).rain, 0.5, 1e-9);
-    EXPECT_GT(at(14.0, 3.0).rain, 0.95);
-    EXPECT_LT(at(14.0, 0.0).rain, 0.02);
-    EXPECT_EQ(at(14.0, 2.0).temperature, 1.0);
-    EXPECT_DOUBLE_EQ(at(23.0, 2.0).temperature, 0.5);
-    EXPECT_EQ(at(29.0, 2.0).temperature, 0.0);
-    EXPECT_EQ(at(9.6, 2.0).cold, 1.0);
-    EXPECT_EQ(at(9.4, 2.0).cold, 0.0);
-    EXPECT_DOUBLE_EQ(moisture_gate(0.5), 0.5);
-    EXPECT_LT(moisture_gate(0.3), 0.06);
-}
-
-TEST(Conditions, FollowRainAsLateAsBodiesNeed) {
-    std::vector<FungusSpecies> species{boletus(), boletus("jelly")};
-    species[1].ecology.fruit.rain_memory = 2;
-    const WeatherYear dry = even_weather(14.0, 0.0);
-    WeatherYear once = dry;
-    once[100].rain = 60.0;
-    const SeasonConditions conditions = conditions_of(species, dry, once);
-    const auto peak = [&](std::size_t which) {
-        const auto& days = conditions.species[which];
-        return std::ranges::max_element(days, {}, &FruitingDay::rain) - days.begin() - 100;
-    };
-    // The mode of a gamma distribution of shape 3 is two thirds of its mean.
-    EXPECT_NEAR(static_cast<double>(peak(0)), 8.0, 1.0);
-    EXPECT_NEAR(static_cast<double>(peak(1)), 1.0, 1.0);
-    // The rain of the last days of a year counts in the next one.
-    EXPECT_GT(conditions_of(species, even_weather(14.0, 3.0), dry).species[0][0].rain, 0.9);
-}
-
 TEST(Age, GrowsFromNothingToOne) {
     FruitBody body;
     body.emerged = 1000;
@@ -624,44 +528,6 @@ TEST(Counts, AreThoseOfTheBodiesThatStandAtNoon) {
             });
             EXPECT_EQ(counts[i][static_cast<std::size_t>(day - 1)], number) << day;
         }
-}
-
-TEST(Limits, NameTheConditionThatIsLeastSatisfied) {
-    Forest all;
-    const SeasonConditions conditions = conditions_in(all.species, beech, 7, 102);
-    std::set<Condition> found;
-    for (int day = 1; day <= days_of_year; day += 28)
-        for (int i = 0; i < 10; ++i) {
-            const Limits limits =
-                limits_at(all.fungi(), all.in(102), conditions, 0, point(6.0 * i + 1.3, 30.0), day);
-            found.insert(limits.limiting());
-            for (const double value : limits.values) {
-                EXPECT_GE(value, limits[limits.limiting()]);
-                EXPECT_LE(value, 1.0);
-            }
-        }
-    EXPECT_TRUE(found.contains(Condition::mycelium));
-    EXPECT_TRUE(found.contains(Condition::month) || found.contains(Condition::temperature));
-    all.habitat.established = 0.0;
-    const Limits nowhere = limits_at(all.fungi(), all.in(102), conditions, 0, point(5, 5), 250);
-    EXPECT_EQ(std::string(name(nowhere.limiting())), "establishment");
-    EXPECT_EQ(nowhere[Condition::light], 1.0);
-}
-
-TEST(Limits, AllowAPlaceWhereBodiesEmerge) {
-    const Forest& all = forest();
-    const SeasonConditions conditions = conditions_in(all.species, beech, 7, 102);
-    int checked = 0;
-    for (const FruitBody& body : bodies_in(102)) {
-        if (all.species[body.species].ecology.guild == Guild::wood || ++checked % 20 != 0) continue;
-        const int day = (body.emerged - time_of(102)) / ticks_of_day + 1;
-        const Limits limits =
-            limits_at(all.fungi(), all.in(102), conditions, body.species, body.at, day);
-        EXPECT_GT(limits[Condition::light], 0.0);
-        EXPECT_EQ(limits[Condition::establishment], 1.0);
-        EXPECT_GT(limits[Condition::month], 0.0);
-    }
-    EXPECT_GT(checked, 200);
 }
 
 }  // namespace
