@@ -122,9 +122,9 @@ std::optional<Job> ground_job(Store& store, const WorldParams& params) {
 SharedWorld world_of_request(const WorldParams& params, const Atlas& atlas,
                              const ExecutionContext& execution) {
     return execution.caches.worlds(world_key(params), [&] {
-        return std::make_shared<const World>(
-            world_of(params, lookup_in(atlas), ground_of_world(params, execution.caches),
-                     execution.parallel));
+        return std::make_shared<const World>(world_of(params, lookup_in(atlas),
+                                                      ground_of_world(params, execution.caches),
+                                                      execution.parallel));
     });
 }
 

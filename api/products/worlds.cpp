@@ -1,7 +1,6 @@
 #include "api/products/worlds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
