@@ -25,10 +25,6 @@ constexpr int lod_of_trees = 2;
 /// How far a trunk reaches beyond the block of its foot, at most, metres.
 constexpr double trunk_reach = 44.0;
 
-WorldBox grown_by(const WorldBox& box, double margin) {
-    return {box.west - margin, box.south - margin, box.east + margin, box.north + margin};
-}
-
 WorldBox box_of(CellIndex block) {
     const double west = block.x * block_side, south = block.y * block_side;
     return {west, south, west + block_side, south + block_side};
@@ -68,14 +64,11 @@ glm::dvec4 turned_to(const glm::dvec3& up) {
 std::map<std::uint64_t, std::uint64_t> hosts_round(const Request& request, CellIndex block) {
     std::map<std::uint64_t, std::uint64_t> hosts;
     const int last = epoch_of(request.year()), first = epoch_of(std::max(request.year() - 1, 0));
-    for (std::int32_t y = -1; y <= 1; ++y)
-        for (std::int32_t x = -1; x <= 1; ++x)
-            for (int epoch = first; epoch <= last; ++epoch)
-                for (const Genet& genet :
-                     mycelia_of_world(request.world, {block.x + x, block.y + y}, epoch,
-                                      request.execution)
-                         ->genets)
-                    hosts[genet.id] = genet.host;
+    for (int epoch = first; epoch <= last; ++epoch)
+        with_surroundings(request.world, block, epoch * epoch_years, request.execution,
+                          [&](const Fungi&, const RegionYear& input) {
+                              for (const Genet& genet : input.genets) hosts[genet.id] = genet.host;
+                          });
     return hosts;
 }
 
@@ -189,27 +182,6 @@ class BlockPlacements {
     }
 };
 
-/// Computes the blocks and the mycelia that a request needs, in parallel.
-void compute_parts(const Request& request) {
-    const bool with_fungi = request.choice.has(PlacementKind::fungus);
-    const World& world = request.world;
-    const ExecutionContext& execution = request.execution;
-    const double rim = with_fungi ? 2.0 * block_side : 1.0 * block_side;
-    std::vector<std::function<void()>> tasks;
-    for (const CellIndex block : blocks_of(grown_by(request.box, rim)))
-        tasks.emplace_back([&world, &execution, block] {
-            static_cast<void>(block_of_world(world, block, execution));
-        });
-    execution.parallel(tasks);
-    if (!with_fungi) return;
-    tasks.clear();
-    for (const CellIndex block : blocks_of(grown_by(request.box, block_side)))
-        tasks.emplace_back([&request, &world, &execution, block] {
-            static_cast<void>(mycelia_of_world(world, block, epoch_of(request.year()), execution));
-        });
-    execution.parallel(tasks);
-}
-
 /// Returns the individuals that show the trees of a world.
 std::vector<PlotTrees::Shape> shapes_of(const Request& request) {
     const PlotContent content = content_of(request.world, {}, request.time);
@@ -240,8 +212,10 @@ Placements placements_in(const World& world, const WorldBox& box, WorldTime time
         const AtlasEntry* const entry = atlas.find(id);
         request.is_lateral.push_back(entry != nullptr && entry->species.is_lateral());
     }
-    compute_parts(request);
     const std::vector<CellIndex> blocks = blocks_of(box);
+    const WorldBox first = box_of(blocks.front()), last = box_of(blocks.back());
+    const WorldBox whole{first.west, first.south, last.east, last.north};
+    if (choice.has(PlacementKind::fungus)) compute_surroundings(world, whole, execution);
     std::vector<std::vector<Placement>> parts(blocks.size());
     std::vector<std::function<void()>> tasks;
     for (std::size_t i = 0; i < blocks.size(); ++i)

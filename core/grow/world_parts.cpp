@@ -37,6 +37,10 @@ WeatherYear weather_in(const World& world, int year) {
     return weather_of(world.params.climate, world.params.seed, std::max(year, 0));
 }
 
+SeasonConditions conditions_in(const World& world, int year) {
+    return conditions_of(world.species, weather_in(world, year - 1), weather_in(world, year));
+}
+
 WorldBox grown(const WorldBox& box, double by) {
     return {box.west - by, box.south - by, box.east + by, box.north + by};
 }
@@ -133,6 +137,12 @@ class RegionParts {
         return std::make_shared<const BlockSeason>(std::move(out));
     }
 
+    /// Calls a function with what the fruit bodies of a year depend on.
+    void use(int year, const std::function<void(const Fungi&, const RegionYear&)>& call) {
+        const std::shared_ptr<const BlockMycelia> mycelia = mycelia_in(epoch_of(year));
+        call(environs().fungi(), {region_, year, mycelia->genets, environs().around()});
+    }
+
   private:
     [[nodiscard]] std::array<int, 5> place_and(int time) const {
         return {region_.west, region_.south, region_.east, region_.north, time};
@@ -142,13 +152,12 @@ class RegionParts {
     std::shared_ptr<const BlockSeason> emerging(int year) {
         return execution_.caches.seasons(key_of("season ", world_, place_and(year)), [&] {
             throw_if_cancelled(execution_);
-            const std::shared_ptr<const BlockMycelia> mycelia = mycelia_in(epoch_of(year));
-            const Fungi fungi = environs().fungi();
-            const SeasonConditions conditions = conditions_of(
-                fungi.species, weather_in(world_, year - 1), weather_in(world_, year));
-            const RegionYear input{region_, year, mycelia->genets, environs().around()};
-            return std::make_shared<const BlockSeason>(
-                BlockSeason{season_of(fungi, input, conditions, world_.params.fungi.abundance)});
+            BlockSeason season;
+            use(year, [&](const Fungi& fungi, const RegionYear& input) {
+                season.bodies = season_of(fungi, input, conditions_in(world_, year),
+                                          world_.params.fungi.abundance);
+            });
+            return std::make_shared<const BlockSeason>(std::move(season));
         });
     }
 
@@ -260,9 +269,20 @@ Block blocks_round(const World& world, const WorldBox& box, const ExecutionConte
     return out;
 }
 
+void compute_surroundings(const World& world, const WorldBox& box,
+                          const ExecutionContext& execution) {
+    const Influence influence = influence_on(world.species, world.stand);
+    compute_blocks(world, grown(box, reach_of(influence)), execution);
+}
+
+void with_surroundings(const World& world, const Region& region, int year,
+                       const ExecutionContext& execution,
+                       const std::function<void(const Fungi&, const RegionYear&)>& use) {
+    RegionParts(world, region, execution).use(year, use);
+}
+
 std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box, int year,
                                       const ExecutionContext& execution) {
-    const Influence influence = influence_on(world.species, world.stand);
     const std::vector<Region> regions = regions_of(box);
     WorldBox whole = box_of(regions.front());
     for (const Region& region : regions) {
@@ -270,7 +290,7 @@ std::vector<FruitBody> bodies_of_year(const World& world, const WorldBox& box, i
         whole = {std::min(whole.west, part.west), std::min(whole.south, part.south),
                  std::max(whole.east, part.east), std::max(whole.north, part.north)};
     }
-    compute_blocks(world, grown(whole, reach_of(influence)), execution);
+    compute_surroundings(world, whole, execution);
     std::vector<std::shared_ptr<const BlockSeason>> seasons(regions.size());
     std::vector<std::function<void()>> tasks;
     for (std::size_t i = 0; i < regions.size(); ++i)

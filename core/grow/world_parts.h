@@ -1,6 +1,7 @@
 // The parts of a world that several products need, each computed once and cached: blocks of trees, mycelia, seasons.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,15 @@ namespace sporeprint {
 /// trunks may lie in it, by ascending ids.
 [[nodiscard]] Block blocks_round(const World& world, const WorldBox& box,
                                  const ExecutionContext& execution);
+
+/// Computes the blocks on which the fruit bodies in a rectangle depend, in parallel, so that they are cached.
+void compute_surroundings(const World& world, const WorldBox& box,
+                          const ExecutionContext& execution);
+
+/// Calls a function with what the fruit bodies of a rectangle depend on in a year, which lives as long as the call.
+void with_surroundings(const World& world, const Region& region, int year,
+                       const ExecutionContext& execution,
+                       const std::function<void(const Fungi&, const RegionYear&)>& use);
 
 /// Returns the fruit bodies in a rectangle that stand at some time of a year, by ascending ids. What they depend on is
 /// computed in parallel, and only as far away as it has influence.

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "core/world/season.h"
+#include "core/world/fruiting_limits.h"
 #include "tests/api/support.h"
 
 namespace sporeprint::api::products_world_limits_test {
