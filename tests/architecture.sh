@@ -71,10 +71,10 @@ forbid core 'std::(stof|stod|strtod|atof|ostringstream|stringstream|istringstrea
 forbid core '(constexpr|const) std::uint32_t [a-z_]*purpose[a-z_]* *=|Random( [a-z_]+)?\([^,()]*(\(\))?, [0-9]' 'purposes of random streams must be listed in core/math/purposes.h'
 
 # Headers that are slow to compile or of one purpose are included in few places.
-verdict 'Highway may be used only by the noise of core/math and the paint kernels of core/surface' "$(
+verdict 'Highway may be used only by the noise of core/math and the paint kernels of core/surface and core/world' "$(
     code core api server | grep -E '#include [<"]hwy/(highway|foreach_target|contrib)' | cut -d: -f1 | sed 's,/[^/]*$,,' |
-        sort -u | grep -vxE 'core/(math|surface)'
-    code core | grep -E '#include [<"]hwy/foreach_target' | cut -d: -f1 | sort -u | tail -n +3)"
+        sort -u | grep -vxE 'core/(math|surface|world)'
+    code core | grep -E '#include [<"]hwy/foreach_target' | cut -d: -f1 | sort -u | tail -n +4)"
 only_in nlohmann/json.hpp '(core/(params|atlas)|api(/[a-z]+)?)/[a-z_]+\.cpp' 'json.hpp may be included in .cpp files only'
 only_in tiny_gltf.h 'core/gltf/[a-z_]+\.cpp' 'tinygltf may be used in core/gltf only'
 only_in CLI/CLI.hpp 'server/main\.cpp' 'CLI11 takes half a minute to compile: it may be included in main.cpp only'

@@ -1,10 +1,12 @@
-// Worlds: the steps of their ground, a year of weather, and maps of a world whose ground is known.
+// Worlds: the steps of their ground, a year of weather, the floor of a plot, and maps of a world whose ground is known.
 
 #include <benchmark/benchmark.h>
 
+#include "core/atlas/atlas.h"
 #include "core/surface/codecs.h"
 #include "core/world/drainage.h"
 #include "core/world/erosion.h"
+#include "core/world/floor_image.h"
 #include "core/world/maps.h"
 #include "core/world/weather.h"
 
@@ -72,11 +74,37 @@ void map(benchmark::State& state) {
     state.SetLabel(name(kind));
 }
 
+/// The images of the floor of a plot of 10 m below oaks and spruces, beside a meadow.
+void floor(benchmark::State& state) {
+    const Atlas& atlas = *built_in_atlas();
+    std::vector<LeafLitter> kinds;
+    for (const char* id : {"oak", "needle"}) {
+        const LeafPreset* const preset = atlas.find_leaf(id);
+        kinds.push_back({preset->shape, preset->palette});
+    }
+    const WorldBox box{-5.0, -5.0, 5.0, 5.0};
+    const CoverField cover = cover_field(box, floor_margin, [](double x, double y) {
+        CoverConditions at;
+        at.light = 0.5 + 0.08 * x;
+        at.wetness = 0.5 + 0.05 * y;
+        at.fall = {0.35 - 0.05 * x, 0.35 - 0.05 * y};
+        at.has_needles[1] = true;
+        return cover_of(at);
+    });
+    FloorPaint paint;
+    paint.box = box;
+    paint.side = static_cast<int>(state.range(0));
+    paint.kinds = kinds;
+    paint.cover = &cover;
+    for (auto _ : state) benchmark::DoNotOptimize(floor_images(paint));
+}
+
 BENCHMARK(ground)->Name("world_ground")->Arg(0)->Arg(50)->Arg(100)->Unit(benchmark::kMillisecond);
 BENCHMARK(heights)->Name("world_heights")->Unit(benchmark::kMillisecond);
 BENCHMARK(erosion)->Name("world_erosion")->Unit(benchmark::kMillisecond);
 BENCHMARK(drainage)->Name("world_drainage")->Unit(benchmark::kMillisecond);
 BENCHMARK(weather)->Name("world_weather")->Unit(benchmark::kMicrosecond);
+BENCHMARK(floor)->Name("world_floor")->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
 BENCHMARK(map)->Name("world_map")->DenseRange(0, 5)->Unit(benchmark::kMillisecond);
 
 }  // namespace

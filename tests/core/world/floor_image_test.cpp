@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "core/math/noise.h"
 #include "core/problems.h"
 #include "tests/support/atlas.h"
 
@@ -61,6 +63,30 @@ TEST(FloorImages, OfNeighboursHaveTheSameBorder) {
             EXPECT_EQ(texel_of(own, kind, side - 1, i), texel_of(to_east, kind, 0, i)) << i;
             EXPECT_EQ(texel_of(own, kind, i, 0), texel_of(to_north, kind, i, side - 1)) << i;
         }
+}
+
+// Coordinates in the largest world are near the greatest that they can be.
+TEST(FloorImages, OfNeighboursInTheCornerOfAWorldHaveTheSameBorder) {
+    constexpr int side = 128;
+    const auto cover = [](double x, double y) { return mixed(x - 2040.0, y - 2040.0); };
+    const WorldBox here{2040.0, 2044.0, 2044.0, 2048.0}, east{2044.0, 2044.0, 2048.0, 2048.0};
+    const RawImages own = painted(here, side, cover_field(here, floor_margin, cover)),
+                    to_east = painted(east, side, cover_field(east, floor_margin, cover));
+    for (const ImageKind kind : all_kinds)
+        for (int i = 0; i < side; ++i)
+            EXPECT_EQ(texel_of(own, kind, side - 1, i), texel_of(to_east, kind, 0, i)) << i;
+}
+
+TEST(FloorImages, AreTheSameWithEveryInstructionSet) {
+    // Rows of a width that no vector divides.
+    const WorldBox box{2.0, -2.0, 5.0, 1.0};
+    const CoverField field = cover_field(box, floor_margin, mixed);
+    const RawImages first = painted(box, 251, field);
+    for (const std::string& name : simd_names()) {
+        force_simd(name);
+        EXPECT_EQ(painted(box, 251, field).rgb, first.rgb) << name;
+    }
+    force_simd("auto");
 }
 
 TEST(FloorImages, DoNotDependOnTheOrderOfTasks) {
