@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <vector>
 
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -269,7 +271,8 @@ void FloorPainter::paint_band(int from, int to) const {
     canvas.stride = stride_;
     canvas.x = x_.data();
     canvas.y = y_.data() + from;
-    canvas.values.resize(static_cast<std::size_t>(canvas.rows) * floor_planes * stride_);
+    canvas.values = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(canvas.rows) *
+                                                            floor_planes * stride_);
     std::vector<float> space(floor_shares *
                              (stride_ + static_cast<std::size_t>(paint_.cover->columns)));
     for (int row = 0; row < canvas.rows; ++row) paint_row(canvas, row, space);
@@ -343,13 +346,17 @@ void FloorPainter::paint_layer(FloorCanvas& canvas, std::size_t number) const {
                     static_cast<std::size_t>(field.columns) +
                 static_cast<std::size_t>(
                     std::clamp((column >> 1) - field.west, 0, field.columns - 2));
-            const float bound = most_of(piece_index, piece.node);
-            for (int k = 0; bound > 0.0F && k < layer.most; ++k) {
+            // The k-th of n pieces is there where its chance is more than a draw between k / n and (k + 1) / n, so
+            // that none is drawn beyond the last one that may be there.
+            const float most = static_cast<float>(layer.most);
+            const float bound = most * most_of(piece_index, piece.node);
+            for (int k = 0; k < layer.most && static_cast<float>(k) < bound; ++k) {
                 const auto draws =
                     philox({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(number),
                             static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)},
                            {paint_.seed, purposes::floor_pieces});
-                const float chance = static_cast<float>(draws[1] >> 8U) / 16777216.0F;
+                const float chance =
+                    static_cast<float>(k) + static_cast<float>(draws[1] >> 8U) / 16777216.0F;
                 if (chance >= bound) continue;
                 piece.x = (column << cell_bits) + static_cast<std::int32_t>(draws[0] >> 16U) * 2;
                 piece.y = (row << cell_bits) + static_cast<std::int32_t>(draws[0] & 0xffffU) * 2;
@@ -357,8 +364,9 @@ void FloorPainter::paint_layer(FloorCanvas& canvas, std::size_t number) const {
                 constexpr std::int32_t within = (1 << step_bits) - 1;
                 piece.east = static_cast<float>(piece.x & within) / (1 << step_bits);
                 piece.north = static_cast<float>(piece.y & within) / (1 << step_bits);
-                if (chance >=
-                    between(piece, [&](std::size_t node) { return chances_[node][piece_index]; }))
+                if (chance >= most * between(piece, [&](std::size_t node) {
+                                  return chances_[node][piece_index];
+                              }))
                     continue;
                 piece.first = draws[2];
                 piece.second = draws[3];

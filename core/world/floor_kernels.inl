@@ -41,23 +41,50 @@ HWY_INLINE FloorRgb mix(const FloorRgb& a, const Shade& b, VF t) {
     return {mix(a.r, set(b[0]), t), mix(a.g, set(b[1]), t), mix(a.b, set(b[2]), t)};
 }
 
+/// The gradients at the corners of the cells of a lattice that points lie in. Neighbours along a row mostly lie in one
+/// cell of a broad lattice.
+struct FloorCells {
+    VI column, line;
+    VF slope_x[4], slope_y[4];
+
+    HWY_INLINE void find(VI u, VI v, std::uint32_t seed) {
+        column = u;
+        line = v;
+        const VU hx0 = hn::BitCast(Words(), u) * word(prime_x);
+        const VU hy0 = hn::BitCast(Words(), v) * word(prime_y) + word(seed);
+        const VU hx1 = hx0 + word(prime_x);
+        const VU hy1 = hy0 + word(prime_y);
+        const VU corners[4] = {hn::Xor(hx0, hy0), hn::Xor(hx1, hy0), hn::Xor(hx0, hy1),
+                               hn::Xor(hx1, hy1)};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const VU h = hash(corners[i]);
+            slope_x[i] = hn::ConvertTo(Floats(), hn::BitCast(Ints(), h));
+            slope_y[i] = hn::ConvertTo(Floats(), hn::BitCast(Ints(), hn::ShiftLeft<16>(h)));
+        }
+    }
+};
+
 /// Returns gradient noise at coordinates of noise_bits bits below the cell.
-HWY_INLINE VF floor_noise(VI u, VI v, std::uint32_t seed) {
+///
+/// is_broad  whether `cells` has those of the points before, which are those of many
+HWY_INLINE VF floor_noise(VI u, VI v, std::uint32_t seed, FloorCells& cells, bool is_broad) {
     const Ints ints;
+    const VI column = hn::ShiftRight<noise_bits>(u), line = hn::ShiftRight<noise_bits>(v);
+    if (!is_broad ||
+        !hn::AllTrue(ints, hn::And(hn::Eq(column, cells.column), hn::Eq(line, cells.line))))
+        cells.find(column, line, seed);
     const VI below = hn::Set(ints, (1 << noise_bits) - 1);
     const VF per_cell = set(1.0F / static_cast<float>(1 << noise_bits));
     const VF fx = hn::ConvertTo(Floats(), hn::And(u, below)) * per_cell;
     const VF fy = hn::ConvertTo(Floats(), hn::And(v, below)) * per_cell;
-    const VU hx0 = hn::BitCast(Words(), hn::ShiftRight<noise_bits>(u)) * word(prime_x);
-    const VU hy0 = hn::BitCast(Words(), hn::ShiftRight<noise_bits>(v)) * word(prime_y) + word(seed);
-    const VU hx1 = hx0 + word(prime_x);
-    const VU hy1 = hy0 + word(prime_y);
     const VF gx = fx - set(1.0F);
     const VF gy = fy - set(1.0F);
+    const auto at = [&](std::size_t corner, VF dx, VF dy) {
+        return cells.slope_x[corner] * dx + cells.slope_y[corner] * dy;
+    };
     const VF along = fade(fx);
-    const VF near =
-        mix(slope2(hn::Xor(hx0, hy0), fx, fy), slope2(hn::Xor(hx1, hy0), gx, fy), along);
-    const VF far = mix(slope2(hn::Xor(hx0, hy1), fx, gy), slope2(hn::Xor(hx1, hy1), gx, gy), along);
+    const VF near = mix(at(0, fx, fy), at(1, gx, fy), along);
+    const VF far = mix(at(2, fx, gy), at(3, gx, gy), along);
     return mix(near, far, fade(fy)) * set(1.6F / 2147483648.0F);
 }
 
@@ -94,11 +121,16 @@ void paint_soil(FloorCanvas& canvas, int row, const SoilRow& soil) {
     const bool has_grass = spread_share(soil, share_grass, least, columns);
     const bool has_rock = spread_share(soil, share_rock, least, columns);
     const bool has_water = spread_share(soil, share_water, least, columns);
+    FloorCells cells[2];
+    for (std::size_t which = 0; which < 2; ++which)
+        cells[which].find(hn::Zero(ints), hn::Zero(ints), soil.seeds[which]);
     for (int i = 0; i < columns; i += lanes) {
         const auto noise = [&](std::size_t which) {
+            FloorCells own;
+            const bool is_broad = which < 2;
             return floor_noise(hn::LoadU(ints, soil.u[which] + i) + hn::Set(ints, soil.u0[which]),
                                hn::Set(ints, soil.v0[which]) - hn::LoadU(ints, soil.v[which] + i),
-                               soil.seeds[which]);
+                               soil.seeds[which], is_broad ? cells[which] : own, is_broad);
         };
         const auto share = [&](std::size_t which) { return hn::LoadU(f, soil.between[which] + i); };
         // Patches whose shares of the ground are about those of the cover.
@@ -134,11 +166,13 @@ void paint_soil(FloorCanvas& canvas, int row, const SoilRow& soil) {
         }
         if (has_grass) {
             const VF sod = patch(share(share_grass), set(0.5F) * b + set(0.5F) * m, 0.5F);
-            colour =
-                mix(colour,
+            if (!hn::AllFalse(f, sod > set(0.0F))) {
+                colour = mix(
+                    colour,
                     ramp(sod_dark, sod_pale, unit(set(0.45F) + set(0.6F) * grain + set(0.6F) * c)),
                     set(0.85F) * sod);
-            height = height + sod * (set(0.006F) + set(0.006F) * t);
+                height = height + sod * (set(0.006F) + set(0.006F) * t);
+            }
         }
         if (has_rock) {
             const VF rock = patch(share(share_rock), set(0.5F) * b + set(0.4F) * m, 0.12F);
@@ -155,16 +189,19 @@ void paint_soil(FloorCanvas& canvas, int row, const SoilRow& soil) {
                 set(1.25F) * of - set(0.62F) + set(0.75F) * m + set(0.45F) * b + set(0.12F) * c;
             moss =
                 hn::IfThenElseZero(of > set(least), unit(set(0.5F) + inside * set(1.0F / 0.09F)));
-            const VF dome = moss * hn::Sqrt(unit(set(1.4F) * inside + set(0.12F)));
-            const VF shoots = unit(set(0.42F) + set(0.85F) * grain + set(0.55F) * t);
-            FloorRgb green = ramp(moss_dark, moss_pale, shoots * (set(0.45F) + set(0.55F) * dome));
-            green.r = green.r + set(moss_warm[0]) * b;
-            green.g = green.g + set(moss_warm[1]) * b;
-            green.b = green.b + set(moss_warm[2]) * b;
-            colour = mix(colour, green, moss);
-            height = height + moss * (set(0.012F) + set(0.028F) * dome + set(0.0035F) * grain +
-                                      set(0.003F) * t);
-            roughness = mix(roughness, set(0.97F), moss);
+            if (!hn::AllFalse(f, moss > set(0.0F))) {
+                const VF dome = moss * hn::Sqrt(unit(set(1.4F) * inside + set(0.12F)));
+                const VF shoots = unit(set(0.42F) + set(0.85F) * grain + set(0.55F) * t);
+                FloorRgb green =
+                    ramp(moss_dark, moss_pale, shoots * (set(0.45F) + set(0.55F) * dome));
+                green.r = green.r + set(moss_warm[0]) * b;
+                green.g = green.g + set(moss_warm[1]) * b;
+                green.b = green.b + set(moss_warm[2]) * b;
+                colour = mix(colour, green, moss);
+                height = height + moss * (set(0.012F) + set(0.028F) * dome + set(0.0035F) * grain +
+                                          set(0.003F) * t);
+                roughness = mix(roughness, set(0.97F), moss);
+            }
         }
         if (has_water) {
             water = patch(share(share_water), set(0.3F) * b, 0.15F);
@@ -206,6 +243,8 @@ void paint_stroke(FloorCanvas& canvas, const FloorStroke& stroke) {
     const Floats f;
     const int lanes = static_cast<int>(hn::Lanes(f));
     const VF per_half = set(1.0F / stroke.half);
+    // Texels beyond this squared distance are not covered.
+    const float reach = stroke.half + 0.501F / stroke.per_texel, farthest = reach * reach;
     const std::size_t stride = canvas.stride;
     for (int row = stroke.range.north; row <= stroke.range.south; ++row) {
         const float dy = metres_between(stroke.y, canvas.y[row]);
@@ -216,10 +255,11 @@ void paint_stroke(FloorCanvas& canvas, const FloorStroke& stroke) {
             const VF t = unit(dx * set(stroke.along_x) + t_of_row);
             const VF px = dx - t * set(stroke.way_x);
             const VF py = set(dy) - t * set(stroke.way_y);
-            const VF distance = hn::Sqrt(px * px + py * py);
+            const VF apart = px * px + py * py;
+            if (hn::AllTrue(f, apart > set(farthest))) continue;
+            const VF distance = hn::Sqrt(apart);
             const VF cover =
                 unit((set(stroke.half) - distance) * set(stroke.per_texel) + set(0.5F));
-            if (hn::AllFalse(f, cover > set(0.0F))) continue;
             float* const at = first + i;
             const VF alpha = set(stroke.strength) * cover *
                              (set(1.0F) - set(0.85F) * hn::LoadU(f, at + floor_water * stride));

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 namespace sporeprint {
 
@@ -34,13 +34,13 @@ struct FloorCanvas {
     std::size_t stride = 0;           ///< columns and floor_padding
     const std::int32_t* x = nullptr;  ///< of columns and padding, in floor_units
     const std::int32_t* y = nullptr;  ///< of rows
-    std::vector<float> values;        ///< by rows, in these by planes
+    std::unique_ptr<float[]> values;  ///< by rows, in these by planes
 
     [[nodiscard]] float* at(int row, std::size_t plane) {
-        return values.data() + (static_cast<std::size_t>(row) * floor_planes + plane) * stride;
+        return values.get() + (static_cast<std::size_t>(row) * floor_planes + plane) * stride;
     }
     [[nodiscard]] const float* at(int row, std::size_t plane) const {
-        return values.data() + (static_cast<std::size_t>(row) * floor_planes + plane) * stride;
+        return values.get() + (static_cast<std::size_t>(row) * floor_planes + plane) * stride;
     }
 };
 
