@@ -1,6 +1,6 @@
 // Gradient noise and its hash on vectors of floats, compiled once per instruction set: included by
-// noise.cpp and by the kernels of core/surface and core/world only. Products and sums are never fused and every operation is
-// exact or correctly rounded, so that all instruction sets agree.
+// noise.cpp and by the kernels of core/surface and core/world only. Products and sums are never
+// fused and every operation is exact or correctly rounded, so that all instruction sets agree.
 #if defined(SPOREPRINT_CORE_MATH_NOISE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_MATH_NOISE_INL
 #undef SPOREPRINT_CORE_MATH_NOISE_INL
