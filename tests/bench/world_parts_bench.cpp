@@ -53,7 +53,8 @@ constexpr WorldBox plot{-5.0, -5.0, 5.0, 5.0};
 /// What is computed of a world over its ground, with twelve species.
 void over_ground(benchmark::State& state) {
     const WorldLookup lookup = lookup_in(atlas());
-    for (auto _ : state) benchmark::DoNotOptimize(world_of(beech(), lookup, ground()));
+    const std::shared_ptr<const Ground> below = ground();
+    for (auto _ : state) benchmark::DoNotOptimize(world_of(beech(), lookup, below));
 }
 
 /// One or four species at once.
