@@ -137,7 +137,7 @@ Cost cost_of(const PlacementRequest& request) {
                         outer = blocks_of({box.west - rim, box.south - rim, box.east + rim,
                                            box.north + rim})
                                     .size();
-    return {.base = 50'000 + 12'000 * outer + (has_fungi ? 20'000 : 5'000) * inner};
+    return {.base = 50'000 + 10'000 * outer + (has_fungi ? 70'000 : 5'000) * inner};
 }
 
 // --- Rows -------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ struct Placements {
 /// places; of a log that leaves the plot it shows a part.
 ///
 /// time    from year 0 to last_year
-/// cost    20 ms for each block of 64 m where nothing is known, 3 ms where its records are cached; blocks are computed
+/// cost    80 ms for each block of 64 m where nothing is known, 3 ms where its records are cached; blocks are computed
 ///         in parallel
 [[nodiscard]] Placements placements_in(const World& world, const WorldBox& box, WorldTime time,
                                        const PlacementChoice& choice, const Atlas& atlas,

@@ -29,7 +29,7 @@ struct PlotPlace {
 /// A plot of a world. Its content refers to the other members, so that it cannot be copied.
 struct WorldPlot {
     std::shared_ptr<const World> world;
-    Block around;                   ///< of all blocks round the plot, of all times
+    Block around;                   ///< what may shade it or lie on it, of all times
     std::vector<FruitBody> bodies;  ///< that stand on it
     std::optional<CanopyLight> canopy;
     PlotContent content;
@@ -43,7 +43,7 @@ struct WorldPlot {
 /// Returns what a world has on a plot at a moment.
 ///
 /// time  from year 0 to last_year
-/// cost  1 s where nothing is known of the surroundings, 10 ms where everything is
+/// cost  0.1 s where nothing is known of the surroundings, 10 ms where everything is
 [[nodiscard]] std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> world,
                                                              const PlotPlace& place, WorldTime time,
                                                              const ExecutionContext& execution);
