@@ -59,9 +59,10 @@ Cover cover_of(const CoverConditions& at) {
             leaves += lying[kind];
         }
     }
-    // A leaf that falls on others covers nothing more.
-    const double litter = 1.0 - exponential(-1.6 * (leaves + 0.5 * needles));
-    const double shade = 1.0 - at.light;
+    // A leaf that falls on others covers nothing more: those of a year cover nine tenths of the ground.
+    const double litter = 1.0 - exponential(-2.2 * (leaves + 0.5 * needles));
+    // Where crowns are placed at random, what passes between them is a power of their area: twice the area, the square.
+    const double light = at.light * at.light, shade = 1.0 - light;
     const double moisture = at.wetness * (0.3 + 0.7 * shade) * (0.35 + 0.65 * at.acidity);
     const double broad = leaves + needles > 0.0 ? leaves / (leaves + needles) : 0.0;
     Cover cover;
@@ -70,7 +71,7 @@ Cover cover_of(const CoverConditions& at) {
     cover.rock = take(left, smooth_step(0.8, 1.4, at.slope));
     cover.moss =
         take(left, 0.85 * smooth_step(0.12, 0.62, moisture) * (1.0 - 0.8 * litter * broad));
-    cover.grass = take(left, 0.95 * smooth_step(0.2, 0.7, at.light) * (1.0 - 0.6 * litter * broad));
+    cover.grass = take(left, 0.95 * smooth_step(0.2, 0.7, light) * (1.0 - 0.6 * litter * broad));
     cover.herb = take(left, 0.4 * herbs_on(at.day) * smooth_step(0.1, 0.5, at.wetness) *
                                 (1.0 - 0.8 * at.acidity) * smooth_step(0.02, 0.25, at.light));
     const double covered = take(left, litter);
@@ -97,7 +98,8 @@ std::array<double, most_kinds> litterfall(std::span<const LitterSource> sources,
                                           double wind_x, double wind_y) {
     std::array<double, most_kinds> sum{};
     for (const LitterSource& one : sources)
-        sum[one.kind] += litterfall(x - one.x, y - one.y, one.radius, wind_x, wind_y);
+        sum[one.kind] +=
+            litterfall(x - one.x, y - one.y, crown_filling * one.radius, wind_x, wind_y);
     return sum;
 }
 

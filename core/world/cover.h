@@ -14,9 +14,14 @@ namespace sporeprint {
 /// The largest number of kinds of trees in a stand.
 inline constexpr std::size_t most_kinds = 8;
 
+/// How much wider crowns are for the cover than the circles by which trees compete. Such circles reach the trunks of
+/// others at most and leave half of the ground of a wood open; crowns in nature grow into the gaps beside them, until nine
+/// tenths are covered.
+inline constexpr double crown_filling = 1.5;
+
 /// What the cover of a place depends on.
 struct CoverConditions {
-    double light = 1.0;    ///< share of the light of the open sky
+    double light = 1.0;    ///< share of the light of the open sky, below crowns that are not filled
     double wetness = 0.5;  ///< as wetness_on()
     double acidity = 0.5;  ///< of the soil, 0..1
     double slope = 0.0;    ///< rise per metre along the steepest line
@@ -45,7 +50,7 @@ struct Cover {
 /// The crown of a tree from which litter falls.
 struct LitterSource {
     double x = 0.0, y = 0.0;  ///< metres
-    double radius = 1.0;      ///< of the crown, metres
+    double radius = 1.0;      ///< of the crown by the rule of competition, metres
     std::size_t kind = 0;
 };
 
@@ -66,7 +71,7 @@ inline constexpr double leaves_per_year = 2360.0, area_of_leaf = 20.6e-4;
 ///                 crown, but for less than a share of e^-5 that would be blown farther
 [[nodiscard]] double litterfall(double x, double y, double radius, double wind_x, double wind_y);
 
-/// Returns that of all trees, by kind, in the order of the sources.
+/// Returns that of all trees, by kind, in the order of the sources. Their crowns are wider by crown_filling.
 [[nodiscard]] std::array<double, most_kinds> litterfall(std::span<const LitterSource> sources,
                                                         double x, double y, double wind_x,
                                                         double wind_y);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/math/random.h"
 
@@ -67,6 +68,17 @@ TEST(Cover, IsWhatThePlaceIs) {
     EXPECT_EQ(cover_of(cliff).rock, 1.0);
 }
 
+TEST(Cover, OfAWoodWhoseCrownsDoNotMeetIsHardlyGrass) {
+    // Half of the light comes between crowns that are as wide as the circles of competition.
+    CoverConditions wood;
+    wood.light = 0.5;
+    wood.wetness = 0.4;
+    wood.day = 335;
+    wood.fall[0] = 0.9;
+    EXPECT_LT(cover_of(wood).grass, 0.05);
+    EXPECT_GT(cover_of(wood).leaves[0], 0.8);
+}
+
 TEST(Cover, FollowsItsConditions) {
     Random random(2, 0);
     for (int i = 0; i < 300; ++i) {
@@ -120,6 +132,23 @@ TEST(Litterfall, LiesDownwindAndNotBeyondItsReach) {
     EXPECT_EQ(litterfall(17.01, 0.0, 2.0, 1.0, 0.0), 0.0);
     EXPECT_NEAR(litterfall(0.0, 4.0, 2.0, 0.0, 1.0), litterfall(4.0, 0.0, 2.0, 1.0, 0.0), 1e-15);
     EXPECT_LE(litterfall(1.9, 0.0, 5.0, 1.0, 0.0), 1.0);
+}
+
+TEST(Litterfall, OfAWoodIsFromCrownsThatMeet) {
+    // Trees as far from each other as the circles by which they compete reach are a closed wood.
+    std::vector<LitterSource> sources;
+    for (int i = -10; i <= 10; ++i)
+        for (int j = -10; j <= 10; ++j) sources.push_back({6.0 * i, 6.0 * j, 3.0, 1});
+    double sum = 0.0, least = 1e9;
+    for (double x = -3.0; x < 3.0; x += 0.5)
+        for (double y = -3.0; y < 3.0; y += 0.5) {
+            const auto fall = litterfall(sources, x, y, 0.6, 0.8);
+            EXPECT_EQ(fall[0], 0.0);
+            sum += fall[1] / 144.0;
+            least = std::min(least, fall[1]);
+        }
+    EXPECT_NEAR(sum, 2.25 * 3.141592653589793 / 4.0, 0.05);
+    EXPECT_GT(least, 0.5);
 }
 
 TEST(CoverField, IsLinearBetweenNodesAndSharesThemWithItsNeighbours) {
