@@ -456,7 +456,8 @@ CoverField cover_of(const PlotContent& content, const Atlas& atlas) {
                          row = coordinate_at(ground.grid, y);
         const Place place = place_at(ground, column, row);
         at.light = content.light ? content.light(x, y) : 1.0;
-        at.wetness = wetness_on(ground, wetness_index_at(ground, column, row), content.soil_water);
+        at.wetness =
+            wetness_on(ground, wetness_index_at(ground, column, row), content.lasting_water);
         at.slope = std::sqrt(place.east * place.east + place.north * place.north);
         at.stream = stream_at(ground, column, row);
         at.fall = litterfall(sources, x, y, wind.cosine, wind.sine);

@@ -34,6 +34,8 @@ struct PlotContent {
     std::span<const DeadWood> dead_wood;  ///< all that may reach the plot
     std::span<const FruitBody> bodies;
     double soil_water = 80.0;  ///< of the day, mm (WeatherDay)
+    /// Mean of the autumns, mm: on which the moss depends, and other cover that does not change with one rain.
+    double lasting_water = 80.0;
     double acidity = 0.5;      ///< of the soil, 0..1
     double micro = 0.06;       ///< amplitude of the finest relief, metres
     double wind_to = 0.0;      ///< direction to which the wind blows, radians from east to north

@@ -40,6 +40,7 @@ PlotContent content_of(const World& world, const PlotPlace& place, WorldTime tim
     for (const StandKind& kind : world.stand.kinds) content.kinds.push_back(kind.id);
     content.species = world.species_ids;
     content.soil_water = soil_water_at(world.params, time);
+    content.lasting_water = world.autumn_water;
     content.acidity = world.params.soil.acidity;
     content.micro = world.params.terrain.micro;
     content.wind_to = world.downwind();

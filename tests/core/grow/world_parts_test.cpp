@@ -3,19 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
+#include <set>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "core/world/tree_growth.h"
+#include "tests/support/worlds.h"
 
 namespace sporeprint::world_parts_test {
 namespace {
-
-const Atlas& atlas() {
-    static const std::shared_ptr<const Atlas> atlas = built_in_atlas();
-    return *atlas;
-}
 
 WorldParams beech() {
     WorldParams params = params_of(*atlas().find_world("beech"));
@@ -29,35 +30,9 @@ World world_with(const WorldParams& params) {
     return world_of(params, lookup_in(atlas()), ground);
 }
 
-/// Services whose caches have no bound.
-class Cached {
-  public:
-    Cached() {
-        services.caches.blocks = [this](const std::string& key, const auto& make) {
-            return get(blocks_, key, make);
-        };
-        services.caches.mycelia = [this](const std::string& key, const auto& make) {
-            return get(mycelia_, key, make);
-        };
-    }
-    ExecutionContext services;
-
-  private:
-    template <class T>
-    static std::shared_ptr<const T> get(std::map<std::string, std::shared_ptr<const T>>& cache,
-                                        const std::string& key,
-                                        const std::function<std::shared_ptr<const T>()>& make) {
-        std::shared_ptr<const T>& value = cache[key];
-        if (!value) value = make();
-        return value;
-    }
-    std::map<std::string, std::shared_ptr<const Block>> blocks_;
-    std::map<std::string, std::shared_ptr<const BlockMycelia>> mycelia_;
-};
-
 /// Returns services that the tests of one world share.
 const ExecutionContext& shared() {
-    static Cached cached;
+    static CachedParts cached;
     return cached.services;
 }
 
@@ -98,7 +73,7 @@ TEST(WorldParts, OfAYearHaveWhatStillStandsFromTheYearBefore) {
 
 TEST(WorldParts, AreTheSameInEveryRectangleAndOrder) {
     const World world = world_with(beech());
-    Cached other;
+    CachedParts other;
     const WorldTime time = time_of(80, 270);
     const WorldBox whole{20, 40, 60, 70};
     const std::vector<FruitBody> all = bodies_in(world, whole, time, shared());
@@ -119,7 +94,7 @@ TEST(WorldParts, HaveNoBodyButBracketsWithoutRain) {
     WorldParams params = beech();
     params.climate.rain = 0.0;
     const World world = world_with(params);
-    Cached cached;
+    CachedParts cached;
     const auto season = season_of_world(world, {0, 0}, 80, cached.services);
     for (const FruitBody& body : season->bodies)
         EXPECT_TRUE(world.species[body.species].ecology.body.perennial);
@@ -146,7 +121,7 @@ TEST(WorldParts, OfASmallRectangleAreThoseOfItsBlock) {
             std::vector<FruitBody> inside;
             for (const FruitBody& body : block->bodies)
                 if (contains(box, body.at)) inside.push_back(body);
-            Cached other;
+            CachedParts other;
             EXPECT_EQ(bodies_of_year(world, box, year, other.services), inside) << year;
         }
     }
@@ -160,6 +135,71 @@ TEST(WorldParts, LookUpSpeciesWithTheirMonths) {
     ASSERT_TRUE(deceiver.has_value());
     EXPECT_EQ(deceiver->months, 0xFE0) << "June to December";
     EXPECT_NEAR(deceiver->cap_radius, 0.0175, 1e-9) << "of caps of 1 to 6 cm";
+}
+
+/// Returns how many species a square has in the mean over all squares of that side in one of 160 m, in a year.
+///
+/// is_ours  which species are counted
+double species_in(const World& world, std::span<const FruitBody> bodies, int side,
+                  const std::function<bool(const FungusSpecies&)>& is_ours) {
+    std::map<std::pair<int, int>, std::set<int>> found;
+    for (const FruitBody& body : bodies)
+        if (is_ours(world.species[body.species])) {
+            const auto cell = [&](std::int32_t at) {
+                return static_cast<int>(std::floor((metres(at) + 80.0) / side));
+            };
+            found[{cell(body.at.x), cell(body.at.y)}].insert(body.species);
+        }
+    std::size_t sum = 0;
+    for (const auto& [cell, species] : found) sum += species.size();
+    const double squares = (160.0 / side) * (160.0 / side);
+    return static_cast<double>(sum) / squares;
+}
+
+/// Returns z of species = c area^z by least squares over squares of 100 to 25,600 m².
+double species_area_exponent(const World& world, std::span<const FruitBody> bodies,
+                             const std::function<bool(const FungusSpecies&)>& is_ours) {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (int k = 0; k < 5; ++k) {
+        const double area = k * std::log(4.0),
+                     species = std::log(species_in(world, bodies, 10 << k, is_ours));
+        x += area;
+        y += species;
+        xx += area * area;
+        xy += area * species;
+    }
+    return (5.0 * xy - x * y) / (5.0 * xx - x * x);
+}
+
+// The exponents of islands of trees are 0.47 for ectomycorrhizal fungi and 0.32 for saprotrophs.
+TEST(WorldParts, HaveMoreSpeciesOnLargerPlots) {
+    double mycorrhizal = 0.0, saprotrophic = 0.0;
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        WorldParams params = params_of(*atlas().find_world("mixed"));
+        params.seed = seed;
+        params.extent.value = 256;
+        const World world =
+            world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)));
+        const CachedParts cached;
+        const std::vector<FruitBody> bodies =
+            bodies_of_year(world, {-80, -80, 80, 80}, 80, cached.services);
+        const auto is_mycorrhizal = [](const FungusSpecies& species) {
+            return species.ecology.guild == Guild::ectomycorrhizal;
+        };
+        const double all =
+            species_area_exponent(world, bodies, [](const FungusSpecies&) { return true; });
+        EXPECT_GT(all, 0.15);
+        EXPECT_LT(all, 0.55);
+        mycorrhizal += species_area_exponent(world, bodies, is_mycorrhizal) / 3.0;
+        saprotrophic += species_area_exponent(world, bodies,
+                                              [&](const FungusSpecies& species) {
+                                                  return !is_mycorrhizal(species);
+                                              }) /
+                        3.0;
+    }
+    EXPECT_GT(mycorrhizal, saprotrophic);
+    EXPECT_NEAR(mycorrhizal, 0.4, 0.15);
+    EXPECT_NEAR(saprotrophic, 0.35, 0.15);
 }
 
 }  // namespace
