@@ -40,6 +40,7 @@
 #include "core/grow/colony.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/placements.h"
 #include "core/grow/plot_of_world.h"
 #include "core/grow/set_file.h"
 #include "core/grow/tree.h"
@@ -336,7 +337,8 @@ Body block_body(const WorldParams& params, int year) {
     const SeasonConditions conditions =
         conditions_of(world.species, weather_of(params.climate, params.seed, year - 1),
                       weather_of(params.climate, params.seed, year));
-    for (const FruitBody& body : season_of(fungi, {CellIndex{0, 0}, year, genets, around}, conditions, 1.0))
+    for (const FruitBody& body :
+         season_of(fungi, {CellIndex{0, 0}, year, genets, around}, conditions, 1.0))
         append_place(body.id, body.at, body.emerged, body.gone);
     return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
 }
@@ -351,7 +353,36 @@ Body plot_body(const WorldParams& params) {
     return grow_plot(plot->content, options, atlas()).glb;
 }
 
-/// Adds what stands and grows in a block of each world, and two plots.
+/// Returns where things of a world stand, and maps of its light and of the spores of a species.
+Body placements_body(const WorldParams& params) {
+    const World world =
+        world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)));
+    const WorldBox box{-12.0, -8.0, 12.0, 16.0};
+    constexpr int year = 80;
+    const WorldTime time = time_of(year, 270);
+    Bytes bytes;
+    for (const Placement& row : placements_in(world, box, time, {}, atlas(), {}).rows) {
+        append(bytes, row.id);
+        append(bytes, row.host);
+        append(bytes, row.place.translation);
+        append(bytes, row.place.rotation);
+        append(bytes, row.place.scale);
+        append(bytes, row.age);
+    }
+    const MapInputs inputs{
+        .ground = *world.ground, .world = &world, .year = year, .crowns = [&](CellIndex block) {
+            const double west = block.x * block_side, south = block.y * block_side;
+            const WorldBox of_block{west, south, west + block_side, south + block_side};
+            return crowns_in(world, blocks_round(world, of_block, {}).trees,
+                             {west - 64.0, south - 64.0, west + 128.0, south + 128.0}, time);
+        }};
+    for (const WorldMap map : {WorldMap::sky, WorldMap::light, WorldMap::canopy, WorldMap::spores})
+        for (const std::uint16_t number : map_of(map, inputs, frame_of(box, 49)))
+            append(bytes, number);
+    return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
+}
+
+/// Adds what stands and grows in a block of each world, and two plots and their surroundings.
 void add_blocks(Requests& requests) {
     for (const WorldPreset& preset : atlas().worlds()) {
         WorldParams params = params_of(preset);
@@ -359,10 +390,14 @@ void add_blocks(Requests& requests) {
         requests[line_of("block/" + preset.id.string(), params.seed, 80, 256)] = [params] {
             return block_body(params, 80);
         };
-        if (preset.id.view() == "beech" || preset.id.view() == "meadow")
+        if (preset.id.view() == "beech" || preset.id.view() == "meadow") {
+            requests[line_of("placements/" + preset.id.string(), params.seed, 80, 256)] = [params] {
+                return placements_body(params);
+            };
             requests[line_of("plot/" + preset.id.string(), params.seed, 80, 256)] = [params] {
                 return plot_body(params);
             };
+        }
     }
 }
 
