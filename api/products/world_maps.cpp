@@ -162,7 +162,7 @@ std::string read_species(const MapRequest& request, std::string_view text,
                          ValidationErrors& errors) {
     if (request.is_terrarium || request.map != WorldMap::spores) {
         if (!text.empty())
-            errors.add(400, "species",
+            errors.add(422, "species",
                        "is for the map of spores; this is the map of " + request.name());
         return {};
     }
@@ -173,7 +173,7 @@ std::string read_species(const MapRequest& request, std::string_view text,
     if (std::find(known.begin(), known.end(), text) != known.end()) return std::string(text);
     std::string list;
     for (const std::string& id : known) (list += list.empty() ? "" : ", ") += id;
-    errors.add(known.empty() ? 422 : 400, "species",
+    errors.add(422, "species",
                known.empty()
                    ? "no fungus lives in this world"
                    : in_quotes(text) + " does not live in this world; its fungi are " + list);

@@ -96,7 +96,7 @@ std::vector<std::string> read_species(std::string_view text, const WorldParams& 
         if (std::ranges::find(known, id) != known.end()) continue;
         std::string list;
         for (const std::string& one : known) (list += list.empty() ? "" : ", ") += one;
-        errors.add(400, "species",
+        errors.add(422, "species",
                    in_quotes(id) + " does not live in this world; its fungi are " +
                        (list.empty() ? "none" : list));
     }
@@ -371,7 +371,7 @@ const char* ending_of(PlacementFile file) {
 const char* type_of(PlacementFile file) {
     switch (file) {
         case PlacementFile::csv:
-            return "text/csv; charset=utf-8";
+            return "text/csv";
         case PlacementFile::json:
             return "application/json";
         case PlacementFile::bin:

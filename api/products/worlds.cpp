@@ -352,7 +352,7 @@ constexpr Route routes[] = {
      .pattern = "/v1/worlds/{world}/{time}/placements.csv",
      .id = "get_placements",
      .summary = "Where trees, dead trunks and fruit bodies stand on a day, a line each.",
-     .media_type = "text/csv; charset=utf-8",
+     .media_type = "text/csv",
      .query_schema = placement_query_schema,
      .plan = plan_placements<PlacementFile::csv>,
      .has_version_in_path = true},

@@ -236,7 +236,6 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     const seen = { params: { path: plot.params.path, query: { size: 4, texture_size: 256, width: 96, height: 64, view: "kneeling" } } } as const;
     await both(client.HEAD("/v1/worlds/{world}/{time}/plot.png", seen), client.GET("/v1/worlds/{world}/{time}/plot.png", { ...seen, ...binary }));
     const placed = { params: { path: { world: "meadow,extent=256", time: "y80d270" }, query: { bbox: "-8,-8,8,8", kinds: "tree+fungus" } } };
-    const text = { parseAs: "text" } as const;
     await both(client.HEAD("/v1/worlds/{world}/{time}/placements.csv", placed), client.GET("/v1/worlds/{world}/{time}/placements.csv", { ...placed, ...text }));
     await both(client.HEAD("/v1/worlds/{world}/{time}/placements.bin", placed), client.GET("/v1/worlds/{world}/{time}/placements.bin", { ...placed, ...binary }));
     await client.HEAD("/v1/worlds/{world}/{time}/placements.json", placed);
