@@ -126,8 +126,9 @@ class RegionParts {
         std::shared_ptr<const BlockSeason> now = emerging(year);
         // What stands from the year before stays, as long as it lives. Brackets are among the bodies of both years.
         if (year == 0) return now;
+        const std::shared_ptr<const BlockSeason> before = emerging(year - 1);
         BlockSeason out;
-        for (const FruitBody& body : emerging(year - 1)->bodies)
+        for (const FruitBody& body : before->bodies)
             if (body.gone > time_of(year)) out.bodies.push_back(body);
         for (const FruitBody& body : now->bodies)
             if (body.gone > time_of(year)) out.bodies.push_back(body);
