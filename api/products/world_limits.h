@@ -1,4 +1,4 @@
-// What keeps each species of a world from fruiting at a place on a day: the answer to "why is no mushroom here".
+// What keeps each species of a world from fruiting at a place on a day: why there is no mushroom here.
 #pragma once
 
 #include "api/products/context.h"

@@ -147,7 +147,7 @@ TEST(Placements, NameTheHostsOfFungi) {
     EXPECT_GT(with_hosts, 0U);
 }
 
-TEST(Placements, AreOnlyWhatIsAskedFor) {
+TEST(Placements, AreOnlyWhatIsRequested) {
     for (std::size_t kind = 0; kind < placement_kind_count; ++kind) {
         PlacementChoice choice{{}, {}};
         choice.kinds[kind] = true;
