@@ -84,6 +84,12 @@ class BlockPlacements {
                               {(block.x + 0.5) * block_side, (block.y + 0.5) * block_side,
                                block_side + 2.0 * trunk_reach},
                               request.time)) {
+        // What is there at other times is many times as much.
+        std::erase_if(around_.trees,
+                      [&](const StandTree& tree) { return !tree.lives_at(request.time); });
+        std::erase_if(around_.dead, [&](const DeadWood& wood) {
+            return !wood.stands_at(request.time) && !wood.lies_at(request.time);
+        });
         content_.trees = around_.trees;
         content_.dead_wood = around_.dead;
         feet_ = feet_of(content_);

@@ -27,6 +27,12 @@ constexpr double noise_deviation = 0.35;
 /// Returns a coordinate as a multiple of 2^-20 m.
 double rounded(double metres) { return std::floor(metres * 1048576.0 + 0.5) / 1048576.0; }
 
+/// Returns the number of the column or row of squares of a coordinate.
+int square_of(double metres) {
+    constexpr double side = 4.0 * most_flare_reach;
+    return static_cast<int>(std::floor(metres / side));
+}
+
 constexpr glm::vec3 tint_of_wall(0.42F, 0.36F, 0.31F), tint_of_bottom(0.25F, 0.22F, 0.2F);
 
 /// Depths of the rows of vertices of a wall, metres; the last one is the bottom.
@@ -36,52 +42,68 @@ constexpr double first_depth = 0.1;
 
 FloorHeights::FloorHeights(const Ground& ground, std::uint32_t seed, double micro,
                            std::span<const TreeFoot> feet)
-    : ground_(&ground), seed_(seed), micro_(micro), feet_(feet.begin(), feet.end()) {}
+    : ground_(&ground), micro_(micro), feet_(feet.begin(), feet.end()) {
+    Random random(seed, purposes::floor_noise);
+    for (std::size_t k = 0; k < waves.size(); ++k) seeds_.push_back(random.bits());
+    constexpr double reach = most_flare_reach;
+    for (const TreeFoot& foot : feet_)
+        for (int row = square_of(foot.y - reach); row <= square_of(foot.y + reach); ++row)
+            for (int column = square_of(foot.x - reach); column <= square_of(foot.x + reach);
+                 ++column)
+                near_[{column, row}].push_back(foot);
+}
+
+void FloorHeights::heights_of(const Row& row, double north, std::span<const TreeFoot> feet,
+                              std::span<double> out) const {
+    const std::span<const double> x = row.x;
+    const Coordinate line = coordinate_at(ground_->grid, north);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        out[i] = place_at(*ground_, row.columns[i], line).height;
+    for (std::size_t k = 0; k < waves.size() && micro_ > 0.0; ++k) {
+        // Octaves whose zeros coincide would make a lattice visible.
+        const double shift = 0.37 * static_cast<double>(k + 1);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            row.u[i] = static_cast<float>(x[i] / waves[k].length + shift);
+            row.v[i] = static_cast<float>(north / waves[k].length + shift);
+        }
+        gradient_noise(row.u, row.v, seeds_[k], row.noise);
+        const double factor = micro_ * waves[k].share / (2.0 * noise_deviation);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            out[i] += factor * static_cast<double>(row.noise[i]);
+    }
+    for (const TreeFoot& foot : feet) {
+        const double dy = north - foot.y;
+        if (std::abs(dy) >= most_flare_reach) continue;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const double dx = x[i] - foot.x, square = dx * dx + dy * dy;
+            if (square >= most_flare_reach * most_flare_reach) continue;
+            out[i] +=
+                0.25 * foot.diameter * exponential(-std::sqrt(square) / (1.5 * foot.diameter));
+        }
+    }
+}
 
 std::vector<double> FloorHeights::at(std::span<const double> x, std::span<const double> y) const {
     std::vector<Coordinate> columns;
     columns.reserve(x.size());
     for (const double metres : x) columns.push_back(coordinate_at(ground_->grid, metres));
-    std::array<std::uint32_t, waves.size()> seeds{};
-    Random random(seed_, purposes::floor_noise);
-    for (std::uint32_t& seed : seeds) seed = random.bits();
-    std::vector<double> heights;
-    heights.reserve(x.size() * y.size());
     std::vector<float> u(x.size()), v(x.size()), noise(x.size());
-    std::vector<double> row_of(x.size());
-    for (const double north : y) {
-        const Coordinate row = coordinate_at(ground_->grid, north);
-        for (std::size_t i = 0; i < x.size(); ++i)
-            row_of[i] = place_at(*ground_, columns[i], row).height;
-        for (std::size_t k = 0; k < waves.size() && micro_ > 0.0; ++k) {
-            // Octaves whose zeros coincide would make a lattice visible.
-            const double shift = 0.37 * static_cast<double>(k + 1);
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                u[i] = static_cast<float>(x[i] / waves[k].length + shift);
-                v[i] = static_cast<float>(north / waves[k].length + shift);
-            }
-            gradient_noise(u, v, seeds[k], noise);
-            const double factor = micro_ * waves[k].share / (2.0 * noise_deviation);
-            for (std::size_t i = 0; i < x.size(); ++i)
-                row_of[i] += factor * static_cast<double>(noise[i]);
-        }
-        for (const TreeFoot& foot : feet_) {
-            const double dy = north - foot.y;
-            if (std::abs(dy) >= most_flare_reach) continue;
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                const double dx = x[i] - foot.x, square = dx * dx + dy * dy;
-                if (square >= most_flare_reach * most_flare_reach) continue;
-                row_of[i] +=
-                    0.25 * foot.diameter * exponential(-std::sqrt(square) / (1.5 * foot.diameter));
-            }
-        }
-        heights.insert(heights.end(), row_of.begin(), row_of.end());
-    }
+    const Row row{x, columns, u, v, noise};
+    std::vector<double> heights(x.size() * y.size());
+    for (std::size_t i = 0; i < y.size(); ++i)
+        heights_of(row, y[i], feet_, std::span(heights).subspan(i * x.size(), x.size()));
     return heights;
 }
 
 double FloorHeights::at(double x, double y) const {
-    return at(std::span<const double>(&x, 1), std::span<const double>(&y, 1)).front();
+    const Coordinate column = coordinate_at(ground_->grid, x);
+    float u = 0.0F, v = 0.0F, noise = 0.0F;
+    const auto near = near_.find({square_of(x), square_of(y)});
+    std::span<const TreeFoot> feet;
+    if (near != near_.end()) feet = near->second;
+    double height = 0.0;
+    heights_of({{&x, 1}, {&column, 1}, {&u, 1}, {&v, 1}, {&noise, 1}}, y, feet, {&height, 1});
+    return height;
 }
 
 double slab_height(double height) { return std::floor(height / slab_step + 0.5) * slab_step; }

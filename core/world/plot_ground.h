@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -40,10 +42,21 @@ class FloorHeights {
     [[nodiscard]] double at(double x, double y) const;
 
   private:
+    /// A row of places while their heights are computed: coordinates and the noise of a wave.
+    struct Row {
+        std::span<const double> x;
+        std::span<const Coordinate> columns;
+        std::span<float> u, v, noise;
+    };
+    void heights_of(const Row& row, double north, std::span<const TreeFoot> feet,
+                    std::span<double> out) const;
+
     const Ground* ground_;
-    std::uint32_t seed_;
     double micro_;
+    std::vector<std::uint32_t> seeds_;  ///< of the waves
     std::vector<TreeFoot> feet_;
+    /// The feet that raise the ground in squares of 20 m, by columns and rows, in their order.
+    std::map<std::pair<int, int>, std::vector<TreeFoot>> near_;
 };
 
 /// A slab of ground.

@@ -47,8 +47,11 @@ TEST(FloorHeights, HaveWavesOfTheirAmplitude) {
 
 TEST(FloorHeights, OfAGridAreThoseOfItsPlaces) {
     const Ground ground = sloping_ground(0.03, 0.02);
-    const FloorHeights floor(ground, 9, 0.06, {});
-    const std::vector<double> x{-3.0, 0.25, 7.5}, y{1.0, -2.0};
+    const std::vector<TreeFoot> feet{
+        {-6.9, 0.4, 0.5}, {0.2, -2.1, 0.7}, {19.0, 4.9, 0.4}, {2.6, 1.0, 0.3}};
+    const FloorHeights floor(ground, 9, 0.06, feet);
+    const std::vector<double> x{-10.0, -3.0, 0.0, 0.25, 5.0, 20.0, 23.9},
+        y{9.7, 5.0, 1.0, 0.0, -2.0};
     const std::vector<double> heights = floor.at(x, y);
     for (std::size_t row = 0; row < y.size(); ++row)
         for (std::size_t column = 0; column < x.size(); ++column)
