@@ -10,6 +10,7 @@
 #include "api/products/resource.h"
 #include "api/products/world_parts.h"
 #include "api/products/worlds.h"
+#include "core/grow/plot_of_world.h"
 #include "core/grow/world_limits.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -47,15 +48,7 @@ struct LimitRequest {
     WorldTimeRead time;
     LimitParams params;
 
-    [[nodiscard]] WorldPoint place() const {
-        const auto units = [](double metres) {
-            return static_cast<std::int32_t>(std::floor(metres * units_of_metre));
-        };
-        return {units(params.x), units(params.y)};
-    }
-    [[nodiscard]] std::string time_text() const {
-        return 'y' + std::to_string(time.year) + 'd' + std::to_string(time.day);
-    }
+    [[nodiscard]] WorldPoint place() const { return point_at(params.x, params.y); }
     /// Returns the query that names its place.
     [[nodiscard]] std::string query() const { return query_text(params); }
 };
@@ -63,11 +56,8 @@ struct LimitRequest {
 LimitRequest read_limits(const RouteCall& call, ValidationErrors& errors) {
     LimitRequest request;
     request.world = read_world(call.captured[0], *call.context.atlas, errors);
-    request.time = read_world_time(call.captured[1], errors);
-    if (request.time.is_valid && request.time.day == 0)
-        errors.add(400, "time",
-                   "what limits fungi changes from day to day; add one, as in " + call.captured[1] +
-                       "d270");
+    request.time = read_world_day(call.captured[1],
+                                  "what limits fungi changes from day to day; add one", errors);
     std::vector<Problem> problems;
     read_query(query_of_world(call.target, errors), request.params, problems);
     errors.add(400, problems);
@@ -177,10 +167,10 @@ Value describe(const Context& context, const LimitRequest& request, const World&
     Value species = Value::array();
     for (std::size_t i = 0; i < world.species.size(); ++i)
         species.push(species_value(world, i, limits));
-    const std::string folder = folder_of(Worlds::all) + text + '/' + request.time_text();
+    const std::string folder = folder_of(Worlds::all) + text + '/' + request.time.text();
     return Value::object()
         .set("world", text)
-        .set("time", request.time_text())
+        .set("time", request.time.text())
         .set("place_m", Value(Value::Array{request.params.x, request.params.y,
                                            rounded(world.place_at(request.place()).height)}))
         .set("site", Value::object()
@@ -200,25 +190,20 @@ Plan plan_limits(RouteCall& call) {
     const auto request = std::make_shared<const LimitRequest>(read_limits(call, call.errors));
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     Resource resource = world_resource(
-        context, request->world, '/' + request->time_text() + "/limits.json", request->query());
-    resource.file_name = request->world.spec.preset + "_limits_" + request->time_text() + ".json";
+        context, request->world, '/' + request->time.text() + "/limits.json", request->query());
+    resource.file_name = request->world.spec.preset + "_limits_" + request->time.text() + ".json";
     resource.estimate_cost = [](const Caches&) { return Cost{.base = 100'000}; };
-    resource.prerequisite = [request, atlas = context.atlas](Store& store) {
-        return world_job(store, request->world.spec.params, atlas);
-    };
-    resource.make = [&context, request,
-                     text = world_text(request->world.spec, *context.atlas, resource.version)](
-                        JobContext& job) {
-        const ExecutionContext& execution = job.execution();
-        execution.observer(Step::resolve);
-        const SharedWorld world =
-            world_of_request(request->world.spec.params, *context.atlas, execution);
-        execution.observer(Step::build);
-        const PlaceLimits limits =
-            limits_in(*world, request->place(), request->time.year, request->time.day, execution);
-        execution.observer(Step::pack);
-        return Body{slice_of(dump(describe(context, *request, *world, limits, text)))};
-    };
+    make_of_world(
+        resource, request->world.spec.params, context.atlas,
+        [&context, request,
+         text = world_text(request->world.spec, *context.atlas, resource.version)](
+            const SharedWorld& world, const ExecutionContext& execution) {
+            execution.observer(Step::build);
+            const PlaceLimits limits = limits_in(*world, request->place(), request->time.year,
+                                                 request->time.day, execution);
+            execution.observer(Step::pack);
+            return Body{slice_of(dump(describe(context, *request, *world, limits, text)))};
+        });
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 

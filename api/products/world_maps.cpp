@@ -256,11 +256,10 @@ std::vector<std::uint16_t> numbers_of(const MapRequest& request, const MapSource
     }
     inputs.crowns = [&](CellIndex block) {
         throw_if_cancelled(execution);
-        const double west = block.x * block_side, south = block.y * block_side;
-        const WorldBox box{west, south, west + block_side, south + block_side};
+        const WorldBox box = box_of(block);
         const double reach = shade_reach + 1.0;
         return crowns_in(*source.world, blocks_round(*source.world, box, execution).trees,
-                         {west - reach, south - reach, box.east + reach, box.north + reach},
+                         {box.west - reach, box.south - reach, box.east + reach, box.north + reach},
                          time_of(request.year, midsummer_day));
     };
     return map_of(request.map, inputs, request.frame(), execution.parallel);

@@ -69,6 +69,17 @@ WorldTimeRead read_world_time(std::string_view text, ValidationErrors& errors) {
     return {};
 }
 
+std::string WorldTimeRead::text() const {
+    return 'y' + std::to_string(year) + (day == 0 ? "" : 'd' + std::to_string(day));
+}
+
+WorldTimeRead read_world_day(std::string_view text, const char* why, ValidationErrors& errors) {
+    const WorldTimeRead time = read_world_time(text, errors);
+    if (time.is_valid && time.day == 0)
+        errors.add(400, "time", std::string(why) + ", as in " + std::string(text) + "d270");
+    return time;
+}
+
 std::string text_of(const WorldBox& box) {
     return number_text(box.west) + ',' + number_text(box.south) + ',' + number_text(box.east) +
            ',' + number_text(box.north);
@@ -143,6 +154,19 @@ std::optional<Job> world_job(Store& store, const WorldParams& params,
         return Response();
     };
     return Job{std::move(key), cost, std::move(run), true};
+}
+
+void make_of_world(Resource& resource, const WorldParams& params,
+                   const std::shared_ptr<const Atlas>& atlas,
+                   std::function<Body(const SharedWorld&, const ExecutionContext&)> make) {
+    resource.prerequisite = [params, atlas](Store& store) {
+        return world_job(store, params, atlas);
+    };
+    resource.make = [params, atlas, make = std::move(make)](JobContext& job) {
+        const ExecutionContext& execution = job.execution();
+        execution.observer(Step::resolve);
+        return make(world_of_request(params, *atlas, execution), execution);
+    };
 }
 
 }  // namespace sporeprint::api

@@ -2,6 +2,8 @@
 // the blocks that they need.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 #include "api/cache/store.h"
 #include "api/http/errors.h"
 #include "api/products/context.h"
+#include "api/products/resource.h"
 #include "core/world/ground.h"
 #include "core/world/world.h"
 
@@ -19,10 +22,21 @@ struct WorldTimeRead {
     int year = 0;
     int day = 0;  ///< 0 if it names none
     bool is_valid = false;
+
+    /// Returns it as a URL has it: y80 or y80d270.
+    [[nodiscard]] std::string text() const;
+    /// Returns noon of its day.
+    [[nodiscard]] WorldTime noon() const { return time_of(year, day) + ticks_of_day / 2; }
 };
 
 /// Reads the {time} of a URL: y80 or y80d270. Anything else is an error of "time".
 [[nodiscard]] WorldTimeRead read_world_time(std::string_view text, ValidationErrors& errors);
+
+/// Reads a {time} that has to name a day.
+///
+/// why  before ", as in y80d270" where it does not
+[[nodiscard]] WorldTimeRead read_world_day(std::string_view text, const char* why,
+                                           ValidationErrors& errors);
 
 /// Reads a rectangle: west, south, east and north in metres. Errors name "bbox".
 ///
@@ -47,5 +61,12 @@ struct WorldTimeRead {
 /// Returns the job that computes a world with its ground, if it is not cached.
 [[nodiscard]] std::optional<Job> world_job(Store& store, const WorldParams& params,
                                            std::shared_ptr<const Atlas> atlas);
+
+/// Lets a resource be made of a world, which a job of its own computes before if it is not cached.
+///
+/// make  called when the world is there, in Step::resolve
+void make_of_world(Resource& resource, const WorldParams& params,
+                   const std::shared_ptr<const Atlas>& atlas,
+                   std::function<Body(const SharedWorld&, const ExecutionContext&)> make);
 
 }  // namespace sporeprint::api

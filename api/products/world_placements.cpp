@@ -106,10 +106,7 @@ std::vector<std::string> read_species(std::string_view text, const WorldParams& 
 PlacementRequest read_placements(const RouteCall& call, ValidationErrors& errors) {
     PlacementRequest request;
     request.world = read_world(call.captured[0], *call.context.atlas, errors);
-    request.time = read_world_time(call.captured[1], errors);
-    if (request.time.is_valid && request.time.day == 0)
-        errors.add(400, "time",
-                   "placements are of one day; add it, as in " + call.captured[1] + "d270");
+    request.time = read_world_day(call.captured[1], "placements are of one day; add it", errors);
     PlacementParams params;
     std::vector<Problem> problems;
     read_query(query_of_world(call.target, errors), params, problems);
@@ -380,12 +377,8 @@ const char* type_of(PlacementFile file) {
     return "";
 }
 
-std::string time_text(const PlacementRequest& request) {
-    return 'y' + std::to_string(request.time.year) + 'd' + std::to_string(request.time.day);
-}
-
 std::string path_of(const PlacementRequest& request, PlacementFile file) {
-    return '/' + time_text(request) + "/placements" + ending_of(file);
+    return '/' + request.time.text() + "/placements" + ending_of(file);
 }
 
 Value head_of(const Context& context, const PlacementRequest& request, const std::string& world) {
@@ -396,7 +389,7 @@ Value head_of(const Context& context, const PlacementRequest& request, const std
     const WorldBox& box = request.box;
     return Value::object()
         .set("world", world)
-        .set("time", time_text(request))
+        .set("time", request.time.text())
         .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
         .set("axes", "x to the east, y up, z to the south, metres from the centre of the world")
         .set("links", Value::object()
@@ -412,8 +405,8 @@ Placements placements_of(const PlacementRequest& request, const World& world, co
         for (const std::string& id : world.species_ids)
             choice.species.push_back(std::ranges::find(request.species, id) !=
                                      request.species.end());
-    const WorldTime noon = time_of(request.time.year, request.time.day) + ticks_of_day / 2;
-    Placements placements = placements_in(world, request.box, noon, choice, atlas, execution);
+    Placements placements =
+        placements_in(world, request.box, request.time.noon(), choice, atlas, execution);
     if (placements.rows.size() > most_rows)
         throw Impossible("/bbox", "has " + std::to_string(placements.rows.size()) +
                                       " things; at most " + std::to_string(most_rows) +
@@ -430,32 +423,28 @@ Plan plan_file(RouteCall& call, PlacementFile file) {
         world_resource(context, request->world, path_of(*request, file), request->query());
     resource.type = type_of(file);
     resource.file_name =
-        request->world.spec.preset + "_placements_" + time_text(*request) + ending_of(file);
+        request->world.spec.preset + "_placements_" + request->time.text() + ending_of(file);
     resource.estimate_cost = [cost = cost_of(*request)](const Caches&) { return cost; };
-    resource.prerequisite = [request, atlas = context.atlas](Store& store) {
-        return world_job(store, request->world.spec.params, atlas);
-    };
-    resource.make = [&context, request, file,
-                     text = world_text(request->world.spec, *context.atlas, resource.version)](
-                        JobContext& job) {
-        const ExecutionContext& execution = job.execution();
-        execution.observer(Step::resolve);
-        const SharedWorld world =
-            world_of_request(request->world.spec.params, *context.atlas, execution);
-        execution.observer(Step::build);
-        const Placements placements = placements_of(*request, *world, *context.atlas, execution);
-        execution.observer(Step::pack);
-        const Names names = names_of(context, *world, placements);
-        switch (file) {
-            case PlacementFile::csv:
-                return Body{slice_of(csv_of(placements, names))};
-            case PlacementFile::bin:
-                return Body{slice_of(bin_of(placements, names))};
-            case PlacementFile::json:
-                break;
-        }
-        return Body{slice_of(json_of(placements, names, head_of(context, *request, text)))};
-    };
+    make_of_world(
+        resource, request->world.spec.params, context.atlas,
+        [&context, request, file,
+         text = world_text(request->world.spec, *context.atlas, resource.version)](
+            const SharedWorld& world, const ExecutionContext& execution) {
+            execution.observer(Step::build);
+            const Placements placements =
+                placements_of(*request, *world, *context.atlas, execution);
+            execution.observer(Step::pack);
+            const Names names = names_of(context, *world, placements);
+            switch (file) {
+                case PlacementFile::csv:
+                    return Body{slice_of(csv_of(placements, names))};
+                case PlacementFile::bin:
+                    return Body{slice_of(bin_of(placements, names))};
+                case PlacementFile::json:
+                    break;
+            }
+            return Body{slice_of(json_of(placements, names, head_of(context, *request, text)))};
+        });
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 

@@ -171,15 +171,8 @@ struct PlotRequest {
         return {params.x - half, params.y - half, params.x + half, params.y + half};
     }
     /// Returns the canonical query of a file.
-    [[nodiscard]] std::string query(PlotFile file) const {
-        return file == PlotFile::png ? query_text(picture) : query_text(params);
-    }
-    /// Noon of its day.
-    [[nodiscard]] WorldTime moment() const {
-        return time_of(time.year, time.day) + ticks_of_day / 2;
-    }
-    [[nodiscard]] std::string time_text() const {
-        return 'y' + std::to_string(time.year) + 'd' + std::to_string(time.day);
+    [[nodiscard]] std::string query(Product file) const {
+        return file == Product::png ? query_text(picture) : query_text(params);
     }
 };
 
@@ -198,12 +191,10 @@ void check_place(const PlotRequest& request, ValidationErrors& errors) {
     check(box.south, box.north, extent.south, extent.north, "y");
 }
 
-PlotRequest read_plot(const RouteCall& call, PlotFile file, ValidationErrors& errors) {
+PlotRequest read_plot(const RouteCall& call, Product file, ValidationErrors& errors) {
     PlotRequest request;
     request.world = read_world(call.captured[0], *call.context.atlas, errors);
-    request.time = read_world_time(call.captured[1], errors);
-    if (request.time.is_valid && request.time.day == 0)
-        errors.add(400, "time", "a plot is of one day; add it, as in " + call.captured[1] + "d270");
+    request.time = read_world_day(call.captured[1], "a plot is of one day; add it", errors);
     std::vector<Problem> problems;
     const auto query = query_of_world(call.target, errors);
     const auto read = [&](auto& params) {
@@ -213,7 +204,7 @@ PlotRequest read_plot(const RouteCall& call, PlotFile file, ValidationErrors& er
             read_words<PlotLayer, plot_layer_count>(params.layers.view(), "layers", errors);
         params.layers = Text<40>(words_text<PlotLayer>(request.layers));
     };
-    if (file == PlotFile::png) {
+    if (file == Product::png) {
         read(request.picture);
         request.params = request.picture.plot();
     } else {
@@ -222,13 +213,6 @@ PlotRequest read_plot(const RouteCall& call, PlotFile file, ValidationErrors& er
     errors.add(400, problems);
     if (errors.empty()) check_place(request, errors);
     return request;
-}
-
-std::unique_ptr<const WorldPlot> plot_of(const PlotRequest& request, const Atlas& atlas,
-                                         const ExecutionContext& execution) {
-    const PlotParams& params = request.params;
-    return plot_of_world(world_of_request(request.world.spec.params, atlas, execution),
-                         {params.x, params.y, params.size}, request.moment(), execution);
 }
 
 PlotOptions options_of(const PlotRequest& request) {
@@ -247,13 +231,13 @@ PlotOptions options_of(const PlotRequest& request) {
 }
 
 /// Returns the approximate cost of a plot whose world is computed.
-Cost cost_of_plot(const PlotRequest& request, PlotFile file) {
+Cost cost_of_plot(const PlotRequest& request, Product file) {
     const PlotParams& params = request.params;
     // The blocks round it, their mycelia and their fruit bodies, of which one plot in five finds none computed.
     const std::uint64_t blocks = blocks_of(request.box()).size();
     Cost cost{.base = 40'000 + 60'000 * blocks};
-    if (file == PlotFile::json) return cost;
-    if (file == PlotFile::png) {
+    if (file == Product::json) return cost;
+    if (file == Product::png) {
         const Cost drawing = cost_of_drawing(request.picture.picture(), most_plot_triangles);
         cost += drawing;
         cost.pixels += 3 * static_cast<std::uint64_t>(params.texture_size) *
@@ -328,39 +312,15 @@ Value bodies_on(const Context& context, const WorldPlot& plot, WorldTime time) {
     return list;
 }
 
-const char* ending_of(PlotFile file) {
-    switch (file) {
-        case PlotFile::glb:
-            return ".glb";
-        case PlotFile::json:
-            return ".json";
-        case PlotFile::png:
-            return ".png";
-    }
-    return "";
-}
-
-const char* type_of(PlotFile file) {
-    switch (file) {
-        case PlotFile::glb:
-            return "model/gltf-binary";
-        case PlotFile::json:
-            return "application/json";
-        case PlotFile::png:
-            return "image/png";
-    }
-    return "";
-}
-
-std::string path_of(const PlotRequest& request, PlotFile file) {
-    return '/' + request.time_text() + "/plot" + ending_of(file);
+std::string path_of(const PlotRequest& request, Product file) {
+    return '/' + request.time.text() + "/plot" + ending_of(file);
 }
 
 Value describe(const Context& context, const PlotRequest& request, const WorldPlot& plot,
                const std::string& world) {
     const WorldBox box = request.box();
-    const WorldTime time = request.moment();
-    const auto link = [&](PlotFile file) {
+    const WorldTime time = request.time.noon();
+    const auto link = [&](Product file) {
         return context.responses.link(with_query(
             folder_of(Worlds::all) + world + path_of(request, file), query_text(request.params)));
     };
@@ -370,23 +330,23 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
         picture.y = request.params.y;
         picture.size = request.params.size;
         return context.responses.link(with_query(
-            folder_of(Worlds::all) + world + path_of(request, PlotFile::png), query_text(picture)));
+            folder_of(Worlds::all) + world + path_of(request, Product::png), query_text(picture)));
     };
     return Value::object()
         .set("world", world)
-        .set("time", request.time_text())
+        .set("time", request.time.text())
         .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
         .set("soil_water_mm", rounded(plot.content.soil_water, 100.0))
         .set("trees", trees_on(plot, box, time))
         .set("dead_wood", dead_on(plot, box, time))
         .set("fruit_bodies", bodies_on(context, plot, time))
         .set("links", Value::object()
-                          .set("self", link(PlotFile::json))
-                          .set("model", link(PlotFile::glb))
+                          .set("self", link(Product::json))
+                          .set("model", link(Product::glb))
                           .set("picture", link_of_picture()));
 }
 
-Plan plan_file(RouteCall& call, PlotFile file) {
+Plan plan_file(RouteCall& call, Product file) {
     Context& context = call.context;
     const auto request = std::make_shared<const PlotRequest>(read_plot(call, file, call.errors));
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
@@ -394,51 +354,52 @@ Plan plan_file(RouteCall& call, PlotFile file) {
         world_resource(context, request->world, path_of(*request, file), request->query(file));
     resource.type = type_of(file);
     resource.file_name =
-        request->world.spec.preset + "_plot_" + request->time_text() + ending_of(file);
+        request->world.spec.preset + "_plot_" + request->time.text() + ending_of(file);
     resource.estimate_cost = [cost = cost_of_plot(*request, file)](const Caches&) { return cost; };
-    resource.prerequisite = [request, atlas = context.atlas](Store& store) {
-        return world_job(store, request->world.spec.params, atlas);
-    };
-    resource.make = [&context, request, file, address = resource.address,
-                     world = world_text(request->world.spec, *context.atlas, resource.version)](
-                        JobContext& job) {
-        const ExecutionContext& execution = job.execution();
-        execution.observer(Step::resolve);
-        const std::unique_ptr<const WorldPlot> plot = plot_of(*request, *context.atlas, execution);
-        if (file == PlotFile::json) {
-            execution.observer(Step::pack);
-            return Body{slice_of(dump(describe(context, *request, *plot, world)))};
-        }
-        Extras extras;
-        extras.canonical = context.responses.link(address);
-        if (file == PlotFile::png) {
-            const PlotPictureParams& picture = request->picture;
-            const StandingCamera camera = camera_of(plot->content, picture.view, picture.turn_deg);
-            extras.write = [&, camera](const GlbScene& scene, const Parallel& parallel) -> Body {
-                execution.observer(Step::draw);
-                throw_if_cancelled(execution);
-                const RgbaImage image =
-                    rendered_from(camera, scene, request->picture.picture(), parallel);
-                return {Slice(
-                    std::make_shared<const Bytes>(png(image.rgba, image.width, image.height)))};
-            };
-        }
-        return grow_plot(plot->content, options_of(*request), *context.atlas, extras, execution)
-            .glb;
-    };
+    make_of_world(
+        resource, request->world.spec.params, context.atlas,
+        [&context, request, file, address = resource.address,
+         world = world_text(request->world.spec, *context.atlas, resource.version)](
+            const SharedWorld& of, const ExecutionContext& execution) -> Body {
+            const PlotParams& params = request->params;
+            const std::unique_ptr<const WorldPlot> plot = plot_of_world(
+                of, {params.x, params.y, params.size}, request->time.noon(), execution);
+            if (file == Product::json) {
+                execution.observer(Step::pack);
+                return Body{slice_of(dump(describe(context, *request, *plot, world)))};
+            }
+            Extras extras;
+            extras.canonical = context.responses.link(address);
+            if (file == Product::png) {
+                const PlotPictureParams& picture = request->picture;
+                const StandingCamera camera =
+                    camera_of(plot->content, picture.view, picture.turn_deg);
+                extras.write = [&, camera](const GlbScene& scene,
+                                           const Parallel& parallel) -> Body {
+                    execution.observer(Step::draw);
+                    throw_if_cancelled(execution);
+                    const RgbaImage image =
+                        rendered_from(camera, scene, request->picture.picture(), parallel);
+                    return {Slice(
+                        std::make_shared<const Bytes>(png(image.rgba, image.width, image.height)))};
+                };
+            }
+            return grow_plot(plot->content, options_of(*request), *context.atlas, extras, execution)
+                .glb;
+        });
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 
 }  // namespace
 
-template <PlotFile File>
+template <Product File>
 Plan plan_plot(RouteCall& call) {
     return plan_file(call, File);
 }
 
-template Plan plan_plot<PlotFile::glb>(RouteCall& call);
-template Plan plan_plot<PlotFile::json>(RouteCall& call);
-template Plan plan_plot<PlotFile::png>(RouteCall& call);
+template Plan plan_plot<Product::glb>(RouteCall& call);
+template Plan plan_plot<Product::json>(RouteCall& call);
+template Plan plan_plot<Product::png>(RouteCall& call);
 
 Value plot_query_schema(const Atlas&) { return schema<PlotParams>(); }
 

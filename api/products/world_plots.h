@@ -2,19 +2,13 @@
 #pragma once
 
 #include "api/products/context.h"
+#include "api/products/product.h"
 #include "core/params/value.h"
 
 namespace sporeprint::api {
 
-/// The files of a plot.
-enum class PlotFile {
-    glb,
-    json,  ///< what stands, lies and grows on it
-    png
-};
-
 /// Handles GET /v1/worlds/{world}/{time}/plot.glb, .json and .png.
-template <PlotFile File>
+template <Product File>
 Plan plan_plot(RouteCall& call);
 
 /// Returns the schema of the query of a plot, and of that of a picture.

@@ -124,22 +124,16 @@ Plan plan_season(RouteCall& call) {
         request->world.spec.preset + "_season_" + std::to_string(request->year) + ".json";
     const Cost cost{.base = 20'000 + 120'000 * blocks_of(request->box).size()};
     resource.estimate_cost = [cost](const Caches&) { return cost; };
-    resource.prerequisite = [request, atlas = context.atlas](Store& store) {
-        return world_job(store, request->world.spec.params, atlas);
-    };
-    resource.make = [&context, request,
-                     text = world_text(request->world.spec, *context.atlas, resource.version)](
-                        JobContext& job) {
-        const ExecutionContext& execution = job.execution();
-        execution.observer(Step::resolve);
-        const SharedWorld world =
-            world_of_request(request->world.spec.params, *context.atlas, execution);
-        execution.observer(Step::build);
-        const std::vector<FruitBody> bodies =
-            bodies_of_year(*world, request->box, request->year, execution);
-        execution.observer(Step::pack);
-        return Body{slice_of(dump(describe(*request, *world, bodies, text)))};
-    };
+    make_of_world(
+        resource, request->world.spec.params, context.atlas,
+        [request, text = world_text(request->world.spec, *context.atlas, resource.version)](
+            const SharedWorld& world, const ExecutionContext& execution) {
+            execution.observer(Step::build);
+            const std::vector<FruitBody> bodies =
+                bodies_of_year(*world, request->box, request->year, execution);
+            execution.observer(Step::pack);
+            return Body{slice_of(dump(describe(*request, *world, bodies, text)))};
+        });
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 

@@ -1,9 +1,7 @@
 #include "core/grow/placements.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 
@@ -11,7 +9,6 @@
 #include "core/grow/plot_parts.h"
 #include "core/grow/world_parts.h"
 #include "core/math/direction.h"
-#include "core/math/elementary.h"
 #include "core/world/season.h"
 #include "core/world/tree_growth.h"
 
@@ -24,11 +21,6 @@ constexpr int lod_of_trees = 2;
 
 /// How far a trunk reaches beyond the block of its foot, at most, metres.
 constexpr double trunk_reach = 44.0;
-
-WorldBox box_of(CellIndex block) {
-    const double west = block.x * block_side, south = block.y * block_side;
-    return {west, south, west + block_side, south + block_side};
-}
 
 /// Returns the part of a rectangle that is in a block.
 WorldBox part_in(CellIndex block, const WorldBox& box) {
@@ -118,7 +110,7 @@ class BlockPlacements {
 
     void add_trees(const PlotFrame& frame) {
         for (const StandTree& tree : around_.trees) {
-            if (!tree.lives_at(request_.time) || !contains(box_, tree.at)) continue;
+            if (!contains(box_, tree.at)) continue;
             const std::uint64_t number = shape_number(tree);
             const TreeSize& size = request_.tree_sizes[tree.kind * tree_shapes_of_kind + number];
             Placement row;

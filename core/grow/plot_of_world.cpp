@@ -21,6 +21,8 @@ double soil_water_at(const WorldParams& params, WorldTime time) {
 
 }  // namespace
 
+WorldPoint point_at(double x, double y) { return {units_at(x), units_at(y)}; }
+
 std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
                              const WorldBox& box, WorldTime time) {
     std::vector<Crown> crowns;
@@ -34,7 +36,7 @@ PlotContent content_of(const World& world, const PlotPlace& place, WorldTime tim
     PlotContent content;
     content.ground = world.ground.get();
     content.seed = world.params.seed;
-    content.centre = {units_at(place.x), units_at(place.y)};
+    content.centre = point_at(place.x, place.y);
     content.size = place.size;
     content.time = time;
     for (const StandKind& kind : world.stand.kinds) content.kinds.push_back(kind.id);
@@ -66,7 +68,7 @@ std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> worl
     content.dead_wood = plot->around.dead;
     content.bodies = plot->bodies;
     content.light = [&of, &canopy = *plot->canopy](double x, double y) {
-        const WorldPoint at{units_at(x), units_at(y)};
+        const WorldPoint at = point_at(x, y);
         return of.site_at(at).light * canopy.at(x, y, of.place_at(at).height, 1.0);
     };
     return plot;

@@ -17,6 +17,9 @@ struct PlotPlace {
     double x = 0.0, y = 0.0, size = 10.0;
 };
 
+/// Returns the place at so many metres to the east and north, rounded down to units.
+[[nodiscard]] WorldPoint point_at(double x, double y);
+
 /// Returns the crowns of the trees that stand in a rectangle at a moment, in the order of the trees.
 [[nodiscard]] std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
                                            const WorldBox& box, WorldTime time);

@@ -1,10 +1,8 @@
 #include "core/grow/world_limits.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/grow/world_parts.h"
-#include "core/world/weather.h"
 
 namespace sporeprint {
 
@@ -25,10 +23,7 @@ PlaceLimits limits_in(const World& world, WorldPoint place, int year, int day,
                       const ExecutionContext& execution) {
     const double x = metres(place.x), y = metres(place.y);
     compute_surroundings(world, {x - 1.0, y - 1.0, x + 1.0, y + 1.0}, execution);
-    const ClimateParams& climate = world.params.climate;
-    const SeasonConditions conditions =
-        conditions_of(world.species, weather_of(climate, world.params.seed, std::max(year - 1, 0)),
-                      weather_of(climate, world.params.seed, year));
+    const SeasonConditions conditions = conditions_in(world, year);
     PlaceLimits out;
     with_surroundings(
         world, square_of(place), year, execution, [&](const Fungi& fungi, const RegionYear& input) {

@@ -37,16 +37,8 @@ WeatherYear weather_in(const World& world, int year) {
     return weather_of(world.params.climate, world.params.seed, std::max(year, 0));
 }
 
-SeasonConditions conditions_in(const World& world, int year) {
-    return conditions_of(world.species, weather_in(world, year - 1), weather_in(world, year));
-}
-
 WorldBox grown(const WorldBox& box, double by) {
     return {box.west - by, box.south - by, box.east + by, box.north + by};
-}
-
-WorldBox box_of(const Region& region) {
-    return {metres(region.west), metres(region.south), metres(region.east), metres(region.north)};
 }
 
 /// Computes the blocks that a rectangle is part of.
@@ -205,6 +197,14 @@ std::vector<Region> regions_of(const WorldBox& box) {
 }
 
 }  // namespace
+
+WorldBox box_of(const Region& region) {
+    return {metres(region.west), metres(region.south), metres(region.east), metres(region.north)};
+}
+
+SeasonConditions conditions_in(const World& world, int year) {
+    return conditions_of(world.species, weather_in(world, year - 1), weather_in(world, year));
+}
 
 WorldLookup lookup_in(const Atlas& atlas) {
     const auto tree = [&atlas](std::string_view id) -> const TreeEcology* {

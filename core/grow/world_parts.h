@@ -36,6 +36,12 @@ namespace sporeprint {
 [[nodiscard]] Block blocks_round(const World& world, const WorldBox& box,
                                  const ExecutionContext& execution);
 
+/// Returns the rectangle of a region or of a block.
+[[nodiscard]] WorldBox box_of(const Region& region);
+
+/// Returns how the weather of a year of a world allows its species to fruit; year 0 is also the one before it.
+[[nodiscard]] SeasonConditions conditions_in(const World& world, int year);
+
 /// Computes the blocks on which the fruit bodies in a rectangle depend, in parallel, so that they are cached.
 void compute_surroundings(const World& world, const WorldBox& box,
                           const ExecutionContext& execution);
