@@ -24,7 +24,7 @@ Cost cost_of_ground(const WorldParams& params) {
 Cost cost_of_world(const WorldParams& params) {
     const auto species =
         1 + std::count(params.fungi.species.view().begin(), params.fungi.species.view().end(), '+');
-    return {.base = 40'000 + 28'000 * static_cast<std::uint64_t>(species)};
+    return {.base = 30'000 + 14'000 * static_cast<std::uint64_t>(species)};
 }
 
 /// Reads a whole number with a letter before it, such as y80, and removes it from a text.

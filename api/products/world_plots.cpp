@@ -235,7 +235,7 @@ Cost cost_of_plot(const PlotRequest& request, Product file) {
     const PlotParams& params = request.params;
     // The blocks round it, their mycelia and their fruit bodies, of which one plot in five finds none computed.
     const std::uint64_t blocks = blocks_of(request.box()).size();
-    Cost cost{.base = 40'000 + 60'000 * blocks};
+    Cost cost{.base = 40'000 + 20'000 * blocks};
     if (file == Product::json) return cost;
     if (file == Product::png) {
         const Cost drawing = cost_of_drawing(request.picture.picture(), most_plot_triangles);
