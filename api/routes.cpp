@@ -11,7 +11,7 @@
 #include "api/products/sets.h"
 #include "api/products/traces.h"
 #include "api/products/trees.h"
-#include "api/products/worlds.h"
+#include "api/products/worlds/routes.h"
 #include "api/static_documents.h"
 
 namespace sporeprint::api {

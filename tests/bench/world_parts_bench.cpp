@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/grow/world_parts.h"
+#include "core/grow/world/parts.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "api/http/errors.h"
-#include "api/products/world_parts.h"
-#include "api/products/worlds.h"
+#include "api/products/worlds/parts.h"
+#include "api/products/worlds/worlds.h"
 #include "core/atlas/atlas.h"
 #include "core/params/canonical.h"
 #include "core/world/absence.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/grow/plot.h"
+#include "core/grow/world/plot.h"
 #include "tests/support/slopes.h"
 
 namespace sporeprint {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/grow/world_parts.h"
+#include "core/grow/world/parts.h"
 #include "tests/support/atlas.h"
 
 namespace sporeprint {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/grow/world_parts.h"
+#include "core/grow/world/parts.h"
 #include "tests/support/atlas.h"
 
 namespace sporeprint::world_absence_test {

@@ -1,0 +1,125 @@
+#include "core/grow/world/plot_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "core/grow/mushroom.h"
+#include "core/grow/names.h"
+#include "core/individual/resolve.h"
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/world/season.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Ages of individuals are the middles of so many equal parts of a life.
+constexpr int finest_ages = 16;
+
+/// Individuals of one species and age, at most.
+constexpr std::size_t most_seeds = 4;
+
+/// Side of the images of mushrooms at LOD 0, texels; it halves with every level.
+constexpr int body_texture_side = 512;
+
+int part_of_life(double age, int parts) {
+    return std::min(static_cast<int>(age * parts), parts - 1);
+}
+
+/// Which individual shows a body: its species, the part of its life, and its seed.
+using ShapeKey = std::tuple<std::size_t, int, std::uint32_t>;
+
+struct ShapeChoice {
+    int parts = finest_ages;  ///< of a life
+    std::uint32_t seeds = 1;
+};
+
+ShapeKey key_of(const FruitBody& body, WorldTime time, const ShapeChoice& choice) {
+    return {body.species, part_of_life(age_at(body, time), choice.parts),
+            static_cast<std::uint32_t>(body.id >> 32U) % choice.seeds};
+}
+
+/// Returns the finest choice with few enough individuals.
+ShapeChoice chosen(const std::vector<const FruitBody*>& bodies, WorldTime time) {
+    const auto count = [&](const ShapeChoice& choice) {
+        std::map<ShapeKey, int> different;
+        for (const FruitBody* body : bodies) different[key_of(*body, time, choice)] = 1;
+        return different.size();
+    };
+    ShapeChoice choice;
+    while (choice.parts > 1 && count(choice) > most_plot_mushrooms) choice.parts /= 2;
+    while (choice.seeds < most_seeds &&
+           count({choice.parts, choice.seeds + 1}) <= most_plot_mushrooms)
+        ++choice.seeds;
+    return choice;
+}
+
+}  // namespace
+
+PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,
+                     std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
+    std::vector<const FruitBody*> standing;
+    for (const FruitBody& body : content.bodies)
+        if (body.stands_at(content.time) && frame.has(body.at)) standing.push_back(&body);
+    PlotBodies made;
+    const ShapeChoice choice = chosen(standing, content.time);
+    BearingTrunks trunks(content, frame);
+    std::map<ShapeKey, std::size_t> shape_of;
+    std::vector<bool> is_lateral;
+    made.bodies.reserve(standing.size());
+    for (const FruitBody* body : standing) {
+        const ShapeKey key = key_of(*body, content.time, choice);
+        const auto [found, is_new] = shape_of.try_emplace(key, made.shapes.size());
+        if (is_new) {
+            throw_if_cancelled(execution);
+            const std::string path = "/species/" + std::to_string(body->species);
+            if (body->species >= content.species.size())
+                throw InvalidInput(path, "a body is of a species that the world does not have");
+            const std::string& id = content.species[body->species];
+            const AtlasEntry* const entry = atlas.find(id);
+            if (entry == nullptr) throw InvalidInput(path, "there is no species '" + id + "'");
+            MushroomSpec spec;
+            spec.mix = {{id, 1000}};
+            spec.params.seed = 1 + std::get<2>(key);
+            spec.params.age = (std::get<1>(key) + 0.5) / choice.parts;
+            spec.params.lod = options.lod;
+            spec.params.texture_size.value = body_texture_side;
+            spec.params.textures = options.textures;
+            spec.params.share = ImageShare::species;
+            spec.params.substrate = Substrate::none;
+            spec.params.file = options.file;
+            is_lateral.push_back(entry->species.is_lateral());
+            if (!is_lateral.back()) spec.params.substrate.reset();
+            Individual individual = resolve(spec, atlas, execution.caches.morphs);
+            made.shapes.push_back({std::move(spec), std::move(individual), {}, {}});
+        }
+        made.bodies.push_back({found->second, body->id, body->species, age_at(*body, content.time),
+                               place_of(*body, frame, is_lateral[found->second], trunks)});
+    }
+    for (int lod = options.lod; lod <= last_lod; ++lod) {
+        std::vector<std::uint64_t> triangles;
+        triangles.reserve(made.shapes.size());
+        for (PlotBodies::Shape& shape : made.shapes) {
+            shape.spec.params.lod = lod;
+            triangles.push_back(estimate(shape.spec, shape.individual).triangles);
+        }
+        std::uint64_t all = 0;
+        for (const PlotBodies::Placed& body : made.bodies) all += triangles[body.shape];
+        if (all <= most) break;
+    }
+    for (PlotBodies::Shape& shape : made.shapes) {
+        throw_if_cancelled(execution);
+        shape.mesh = mushroom_mesh(shape.spec, shape.individual);
+        shape.name = level_name(product_name(shape.spec), shape.spec.params.lod);
+    }
+    return made;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,77 @@
+#include "core/grow/world/plot_of_world.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/world/world_habitat.h"
+
+namespace sporeprint {
+
+namespace {
+
+std::int32_t units_at(double metres) {
+    return static_cast<std::int32_t>(std::floor(metres * units_of_metre));
+}
+
+double soil_water_at(const WorldParams& params, WorldTime time) {
+    const WeatherYear weather =
+        weather_of(params.climate, params.seed, static_cast<int>(time / ticks_of_year));
+    return weather[static_cast<std::size_t>(day_of_year(time) - 1)].soil_water;
+}
+
+}  // namespace
+
+WorldPoint point_at(double x, double y) { return {units_at(x), units_at(y)}; }
+
+std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
+                             const WorldBox& box, WorldTime time) {
+    std::vector<Crown> crowns;
+    for (const StandTree& tree : trees)
+        if (tree.lives_at(time) && tree.born < time && contains(box, tree.at))
+            crowns.push_back(crown_of(world, tree, time));
+    return crowns;
+}
+
+PlotContent content_of(const World& world, const PlotPlace& place, WorldTime time) {
+    PlotContent content;
+    content.ground = world.ground.get();
+    content.seed = world.params.seed;
+    content.centre = point_at(place.x, place.y);
+    content.size = place.size;
+    content.time = time;
+    for (const StandKind& kind : world.stand.kinds) content.kinds.push_back(kind.id);
+    content.species = world.species_ids;
+    content.soil_water = soil_water_at(world.params, time);
+    content.lasting_water = world.autumn_water;
+    content.acidity = world.params.soil.acidity;
+    content.micro = world.params.terrain.micro;
+    content.wind_to = world.downwind();
+    return content;
+}
+
+std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> world,
+                                               const PlotPlace& place, WorldTime time,
+                                               const ExecutionContext& execution) {
+    auto plot = std::make_unique<WorldPlot>();
+    plot->world = std::move(world);
+    const World& of = *plot->world;
+    const double half = 0.5 * place.size;
+    const WorldBox box{place.x - half, place.y - half, place.x + half, place.y + half};
+    plot->around = blocks_round(of, box, execution);
+    plot->bodies = bodies_in(of, box, time, execution);
+    const double reach = plot_margin + shade_reach;
+    const WorldBox wide{box.west - reach, box.south - reach, box.east + reach, box.north + reach};
+    plot->canopy.emplace(crowns_in(of, plot->around.trees, wide, time));
+    PlotContent& content = plot->content;
+    content = content_of(of, place, time);
+    content.trees = plot->around.trees;
+    content.dead_wood = plot->around.dead;
+    content.bodies = plot->bodies;
+    content.light = [&of, &canopy = *plot->canopy](double x, double y) {
+        const WorldPoint at = point_at(x, y);
+        return of.site_at(at).light * canopy.at(x, y, of.place_at(at).height, 1.0);
+    };
+    return plot;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,375 @@
+#include "core/grow/world/plot_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/grow/names.h"
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/params/canonical.h"
+#include "core/plant/trunk_piece.h"
+#include "core/world/leaf_stamp.h"
+#include "core/world/tree_growth.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Side of the images of bark and leaves at LOD 0; it halves with every level.
+constexpr int tree_texture_side = 2048;
+
+/// The sides of cells in which leaves and tufts of grass lie, metres.
+constexpr double leaf_cell = 1.0, tuft_cell = 0.5;
+
+/// Tufts of grass in a cell where grass covers it, blades of a tuft, and triangles of a blade.
+constexpr int tufts_of_cell = 12, blades_of_tuft = 6;
+constexpr std::uint64_t triangles_of_blade = 10;
+
+const TreePreset& preset_of(const PlotContent& content, std::size_t kind, const Atlas& atlas) {
+    if (kind >= content.kinds.size())
+        throw InvalidInput("/kinds", "a tree is of a kind that the stand does not have");
+    const TreePreset* const found = atlas.find_tree(content.kinds[kind]);
+    if (found == nullptr)
+        throw InvalidInput("/kinds/" + std::to_string(kind),
+                           "there is no tree '" + content.kinds[kind] + "'");
+    return *found;
+}
+
+const LeafPreset& leaf_of_preset(const TreePreset& tree, const Atlas& atlas) {
+    const LeafPreset* const found = atlas.find_leaf(params_of(tree).look.leaf.id.string());
+    if (found == nullptr) throw InvalidInput("/kinds", "a tree has a leaf that does not exist");
+    return *found;
+}
+
+TreeSpec tree_spec(const TreePreset& preset, std::uint64_t shape, int lod, const LeafState& state,
+                   bool evergreen) {
+    TreeSpec spec{preset.id.string(), params_of(preset)};
+    spec.params.seed = static_cast<std::uint32_t>(1 + shape);
+    spec.params.lod = lod;
+    spec.params.texture_size.value = tree_texture_side;
+    // The ground is raised round the trunk, and the clod of a tree of its own would lie on it.
+    spec.params.look.shape.root_flare = 0.0;
+    if (!evergreen) {
+        spec.params.autumn = state.autumn;
+        if (state.bare) spec.params.look.leaves.per_tip = 0;
+    }
+    return spec;
+}
+
+std::shared_ptr<const TreeMeshes> cached_meshes(const TreeSpec& spec, const Atlas& atlas,
+                                                const ExecutionContext& execution) {
+    return execution.caches.trees("plot tree " + canonical_text(spec.params), [&] {
+        return std::make_shared<const TreeMeshes>(tree_meshes(spec, atlas));
+    });
+}
+
+int sides_of(double radius) { return radius > 0.18 ? 16 : radius > 0.08 ? 12 : 8; }
+
+PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& content,
+               const CoverField& cover, Substrate kind) {
+    const bool lies = wood.lies_at(content.time);
+    const double lost = mass_lost(wood, content.time);
+    // A snag goes on below the ground.
+    const double below = lies ? 0.0 : 0.25;
+    TrunkPieceParams params;
+    params.length = line.to - line.from + below;
+    params.seed = static_cast<std::uint32_t>(wood.id);
+    params.sides = sides_of(radius_at(wood, content.time));
+    params.foot = TrunkEnd::cut;
+    params.lost = 0.6 * lost;
+    if (lies) {
+        params.start = line.from;
+        params.lost = lost;
+        if (line.from <= 0.0) params.foot = TrunkEnd::broken;
+        if (line.to < wood.length) params.top = TrunkEnd::cut;
+        const SineCosine turn = sine_cosine(wood.direction);
+        const double middle = 0.5 * (line.from + line.to);
+        const double damp = cover
+                                .at(metres(wood.at.x) + middle * turn.cosine,
+                                    metres(wood.at.y) + middle * turn.sine)
+                                .moss;
+        params.moss = std::clamp(1.4 * damp + 1.2 * lost - 0.15, 0.0, 1.0);
+    }
+    Mesh mesh = trunk_piece(params, [&](double s) { return line.section(line.from + s - below); });
+    return {wood.id, kind, lies, std::move(mesh)};
+}
+
+/// Returns the columns or rows of cells that a range of metres meets.
+std::pair<int, int> cells_of(double from, double to, double cell) {
+    return {static_cast<int>(std::floor(from / cell)), static_cast<int>(std::floor(to / cell))};
+}
+
+/// Returns the seed of what lies in a cell.
+std::uint32_t seed_of_cell(std::uint32_t seed, std::uint32_t which, int x, int y) {
+    return philox({which, 0, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)},
+                  {seed, purposes::plot_pieces})[0];
+}
+
+/// Returns a rotation that turns the vertical axis to a unit vector, after a turn about it.
+glm::dvec4 standing_on(const glm::dvec3& up, double angle) {
+    const SineCosine turn = sine_cosine(angle);
+    const glm::dvec3 along = square_to(up, {turn.sine, 0.0, turn.cosine});
+    return quaternion_of({glm::cross(up, along), up, along});
+}
+
+}  // namespace
+
+PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind, std::uint64_t number,
+                            int lod, const Atlas& atlas, const ExecutionContext& execution) {
+    const TreePreset& preset = preset_of(content, kind, atlas);
+    const LeafPreset& leaf = leaf_of_preset(preset, atlas);
+    const LeafState state = leaves_on(day_of_year(content.time));
+    PlotTrees::Shape shape;
+    shape.kind = kind;
+    shape.spec = tree_spec(preset, number, lod, state, has_needles({leaf.shape, leaf.palette}));
+    shape.name = product_name(shape.spec, atlas);
+    shape.meshes = cached_meshes(shape.spec, atlas, execution);
+    const Bounds box = bounds(*shape.meshes);
+    shape.size.height = std::max(0.1, static_cast<double>(box.max.y));
+    shape.size.radius =
+        std::max(0.02, 0.25 * static_cast<double>(box.max.x - box.min.x + box.max.z - box.min.z));
+    return shape;
+}
+
+PlotTrees trees_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,
+                   std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
+    std::vector<const StandTree*> standing;
+    for (const StandTree& tree : content.trees)
+        if (tree.lives_at(content.time) && frame.has(tree.at)) standing.push_back(&tree);
+    PlotTrees made;
+    for (int lod = options.lod + 1;; ++lod) {
+        made = {};
+        std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> shape_of;
+        std::uint64_t triangles = 0;
+        for (const StandTree* tree : standing) {
+            throw_if_cancelled(execution);
+            const std::uint64_t number = shape_number(*tree);
+            const auto [found, is_new] =
+                shape_of.try_emplace({tree->kind, number}, made.shapes.size());
+            if (is_new)
+                made.shapes.push_back(
+                    tree_shape(content, tree->kind, number, lod, atlas, execution));
+            const PlotTrees::Shape& own = made.shapes[found->second];
+            triangles += own.meshes->triangles();
+            made.trees.push_back(
+                {found->second, tree->id, place_of(*tree, content.time, own.size, frame)});
+        }
+        if (triangles <= most || lod == last_far_lod) break;
+        // Impostors are for the distance; after the common levels come the far ones.
+        if (lod == last_lod) lod = impostor_lod;
+    }
+    return made;
+}
+
+Substrate wood_of(const TreePreset& tree) {
+    for (const Substrate wood : all_woods)
+        if (tree.id.string() == name(wood)) return wood;
+    const std::string leaf = params_of(tree).look.leaf.id.string();
+    if (leaf == "oak") return Substrate::oak;
+    if (leaf == "birch") return Substrate::birch;
+    if (leaf == "shoot" || leaf == "needle") return Substrate::spruce;
+    return Substrate::beech;
+}
+
+std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,
+                             const CoverField& cover, const Atlas& atlas) {
+    std::vector<PlotLog> logs;
+    for (const DeadWood& wood : content.dead_wood) {
+        if (const auto line = trunk_line(wood, content, frame))
+            logs.push_back(
+                log_of(wood, *line, content, cover, wood_of(preset_of(content, wood.kind, atlas))));
+    }
+    return logs;
+}
+
+Mesh PlotLeaves::merged() const {
+    Mesh all;
+    const std::size_t vertices = places.size() * one.positions.size();
+    all.positions.reserve(vertices);
+    all.normals.reserve(vertices);
+    all.tangents.reserve(one.tangents.empty() ? 0 : vertices);
+    all.texture_coordinates.reserve(one.texture_coordinates.empty() ? 0 : vertices);
+    all.tints.reserve(vertices);
+    all.indices.reserve(places.size() * one.indices.size());
+    for (const GlbTransform& place : places) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        for (std::size_t i = 0; i < one.positions.size(); ++i) {
+            all.positions.emplace_back(
+                place.translation +
+                rotated(place.rotation, place.scale * glm::dvec3(one.positions[i])));
+            all.normals.emplace_back(
+                glm::normalize(rotated(place.rotation, glm::dvec3(one.normals[i]))));
+            if (!one.tangents.empty())
+                all.tangents.emplace_back(
+                    glm::vec3(glm::normalize(rotated(place.rotation, glm::dvec3(one.tangents[i])))),
+                    one.tangents[i].w);
+            if (!one.texture_coordinates.empty())
+                all.texture_coordinates.push_back(one.texture_coordinates[i]);
+            all.tints.push_back(place.tint);
+        }
+        for (const std::uint32_t index : one.indices) all.indices.push_back(first + index);
+    }
+    return all;
+}
+
+std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& frame,
+                                  const CoverField& cover, double per_m2, const Atlas& atlas) {
+    constexpr std::size_t triangles = 12;
+    constexpr int leaf_texture_side = 256;
+    std::vector<PlotLeaves> leaves(content.kinds.size());
+    std::vector<bool> falls(content.kinds.size(), false);
+    for (std::size_t kind = 0; kind < content.kinds.size(); ++kind) {
+        const LeafPreset& preset = leaf_of_preset(preset_of(content, kind, atlas), atlas);
+        PlotLeaves& own = leaves[kind];
+        own.leaf = params_of(preset);
+        own.leaf.autumn = 1.0;
+        own.leaf.texture_size.value = leaf_texture_side;
+        falls[kind] =
+            !has_needles({preset.shape, preset.palette}) && preset.shape.leaflets == Leaflets{};
+        if (falls[kind]) own.one = foliage_leaf(shape_of(own.leaf), triangles);
+    }
+    const WorldBox& box = frame.box();
+    const auto [west, east] = cells_of(box.west, box.east, leaf_cell);
+    const auto [south, north] = cells_of(box.south, box.north, leaf_cell);
+    const int most = static_cast<int>(std::ceil(per_m2));
+    for (int row = south; row <= north; ++row)
+        for (int column = west; column <= east; ++column)
+            for (int k = 0; k < most; ++k) {
+                Random random(seed_of_cell(content.seed, 0, column, row), purposes::plot_pieces,
+                              static_cast<std::uint32_t>(k));
+                const double along = random.uniform(), up = random.uniform(),
+                             chance = random.uniform(), which = random.uniform(),
+                             angle = random.uniform(), size = random.uniform(),
+                             lean = random.uniform(), lean_to = random.uniform(),
+                             face = random.uniform(), hue = random.uniform(),
+                             age = random.uniform(), lift = random.uniform();
+                const double x = (column + along) * leaf_cell, y = (row + up) * leaf_cell;
+                // Leaves do not reach beyond the slab.
+                constexpr double rim = 0.06;
+                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
+                    y >= box.north - rim)
+                    continue;
+                const Cover here = cover.at(x, y);
+                const double all = here.all_leaves();
+                if (chance >= all * per_m2 / most) continue;
+                double rest = which * all;
+                std::size_t kind = 0;
+                while (kind + 1 < leaves.size() && rest >= here.leaves[kind])
+                    rest -= here.leaves[kind++];
+                if (kind >= leaves.size() || !falls[kind]) continue;
+                const SineCosine to = sine_cosine(2.0 * pi * lean_to);
+                const double tilt = 0.08 + 0.5 * lean * lean;
+                const double sign = face < 0.36 ? -1.0 : 1.0;
+                const glm::dvec3 normal =
+                    sign * glm::normalize(glm::dvec3(tilt * to.cosine, 1.0, tilt * to.sine));
+                const double scale = 0.7 + 0.5 * size;
+                // A leaf that leans has one side on the ground.
+                const double reach = 0.3 * scale * leaves[kind].leaf.shape.length;
+                const double bright = 0.7 + 0.3 * hue, old = 0.55 * age * age;
+                // Lower faces are paler, and duller on the ground than on the tree.
+                const glm::dvec3 tint =
+                    (sign < 0.0 ? 0.62 : 1.0) * bright *
+                    glm::mix(glm::dvec3(1.0), glm::dvec3(0.38, 0.34, 0.34), old);
+                const glm::dvec4 turn = standing_on(normal, 2.0 * pi * angle);
+                // The root of the leaf is beside its place, so that its middle is there.
+                const glm::dvec3 root = rotated(
+                    turn, glm::dvec3(0.0, 0.0, -0.5 * scale * leaves[kind].leaf.shape.length));
+                leaves[kind].places.push_back(
+                    {frame.on_floor(x, y) +
+                         glm::dvec3(root.x, root.y + 0.012 + 0.5 * tilt * reach + 0.006 * lift,
+                                    root.z),
+                     turn, glm::dvec3(scale), glm::vec3(tint)});
+            }
+    leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
+                                [](const PlotLeaves& own) { return own.places.empty(); }),
+                 leaves.end());
+    return leaves;
+}
+
+Mesh grass_of(const PlotContent& content, const PlotFrame& frame, const CoverField& cover,
+              std::uint64_t most) {
+    struct Tuft {
+        double x, y, share;
+        std::uint32_t seed;
+    };
+    std::vector<Tuft> tufts;
+    const WorldBox& box = frame.box();
+    const auto [west, east] = cells_of(box.west, box.east, tuft_cell);
+    const auto [south, north] = cells_of(box.south, box.north, tuft_cell);
+    for (int row = south; row <= north; ++row)
+        for (int column = west; column <= east; ++column)
+            for (int k = 0; k < tufts_of_cell; ++k) {
+                Random random(seed_of_cell(content.seed, 1, column, row), purposes::plot_pieces,
+                              static_cast<std::uint32_t>(k));
+                const double along = random.uniform(), up = random.uniform(),
+                             chance = random.uniform();
+                const std::uint32_t seed = random.bits();
+                const double x = (column + along) * tuft_cell, y = (row + up) * tuft_cell;
+                constexpr double rim = 0.05;
+                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
+                    y >= box.north - rim)
+                    continue;
+                const double grass = cover.at(x, y).grass;
+                if (chance < grass * grass) tufts.push_back({x, y, grass, seed});
+            }
+    const std::uint64_t of_tuft = blades_of_tuft * triangles_of_blade;
+    // Too many of them are thinned out evenly.
+    const std::size_t stride =
+        1 + static_cast<std::size_t>(tufts.size() * of_tuft / std::max<std::uint64_t>(most, 1));
+    Mesh mesh;
+    for (std::size_t i = 0; i < tufts.size(); i += stride) {
+        const Tuft& tuft = tufts[i];
+        const glm::dvec3 foot = frame.on_floor(tuft.x, tuft.y);
+        Random random(tuft.seed, purposes::plot_pieces);
+        const double height = (0.05 + 0.16 * random.uniform()) * (0.4 + 0.6 * tuft.share);
+        for (int blade = 0; blade < blades_of_tuft; ++blade) {
+            const double angle = 2.0 * pi * random.uniform(), out = random.uniform(),
+                         size = random.uniform(), hue = random.uniform(), bend = random.uniform();
+            const SineCosine to = sine_cosine(angle);
+            const glm::dvec3 outwards(to.cosine, 0.0, to.sine), across(-to.sine, 0.0, to.cosine);
+            const double length = height * (0.6 + 0.6 * size), width = 0.003 + 0.0025 * size;
+            const glm::dvec3 root = foot + 0.025 * out * outwards - glm::dvec3(0.0, 0.012, 0.0);
+            const glm::dvec3 middle =
+                root + length * (0.12 + 0.2 * out) * outwards + glm::dvec3(0.0, 0.55 * length, 0.0);
+            const glm::dvec3 tip = middle + length * (0.15 + 0.45 * bend) * outwards +
+                                   glm::dvec3(0.0, 0.45 * length * (1.0 - bend), 0.0);
+            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+            const double dry = hue > 0.88 ? 1.0 : 0.0;
+            const glm::dvec3 green =
+                glm::mix(glm::dvec3(0.035, 0.075, 0.012), glm::dvec3(0.15, 0.22, 0.04), hue);
+            const glm::dvec3 tint = glm::mix(green, glm::dvec3(0.32, 0.26, 0.12), dry);
+            const auto add = [&](const glm::dvec3& at, const glm::dvec3& normal, double light) {
+                mesh.positions.emplace_back(at);
+                mesh.normals.emplace_back(glm::normalize(normal));
+                mesh.tints.emplace_back(light * tint);
+            };
+            for (const auto& [at, breadth, light] :
+                 {std::tuple{root, width, 0.55}, std::tuple{middle, 0.8 * width, 0.85}}) {
+                add(at + breadth * across, across + 0.4 * glm::dvec3(0.0, 1.0, 0.0), light);
+                add(at - breadth * across, -across + 0.4 * glm::dvec3(0.0, 1.0, 0.0), light);
+                add(at + 0.4 * breadth * outwards, outwards, light);
+            }
+            add(tip, outwards + glm::dvec3(0.0, 1.0, 0.0), 1.0);
+            // Corners of a section: on both sides, and on the lower face.
+            for (const auto& [a, b] : {std::pair{0U, 1U}, std::pair{1U, 2U}, std::pair{2U, 0U}}) {
+                const std::uint32_t low = first + a, next = first + b, high = low + 3,
+                                    next_high = next + 3;
+                mesh.indices.insert(mesh.indices.end(), {low, next_high, next, low, high, next_high,
+                                                         high, first + 6, next_high});
+            }
+            mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,90 @@
+// The parts of a plot as meshes: trees, dead wood, leaves and grass. Coordinates are those of the file.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/grow/tree.h"
+#include "core/grow/world/plot.h"
+#include "core/grow/world/plot_places.h"
+#include "core/plant/wood_image.h"
+
+namespace sporeprint {
+
+/// The meshes of the individuals of trees on a plot, at most four of each kind.
+struct PlotTrees {
+    struct Shape {
+        std::size_t kind = 0;
+        std::string name;
+        TreeSpec spec;
+        std::shared_ptr<const TreeMeshes> meshes;
+        TreeSize size;
+    };
+    struct Placed {
+        std::size_t shape = 0;
+        std::uint64_t id = 0;
+        GlbTransform place;
+    };
+    std::vector<Shape> shapes;
+    std::vector<Placed> trees;
+};
+
+/// How many individuals show all trees of a kind, and which of them shows a tree.
+inline constexpr std::uint64_t tree_shapes_of_kind = 4;
+[[nodiscard]] inline std::uint64_t shape_number(const StandTree& tree) {
+    return (tree.id >> 32U) % tree_shapes_of_kind;
+}
+
+/// Returns an individual of a kind of trees, with the leaves of the day of a plot.
+[[nodiscard]] PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind,
+                                          std::uint64_t number, int lod, const Atlas& atlas,
+                                          const ExecutionContext& execution);
+
+/// Returns the trees that stand on a plot.
+///
+/// most  number of triangles that they may have; fewer ones than at the level of detail of the options
+[[nodiscard]] PlotTrees trees_of(const PlotContent& content, const PlotOptions& options,
+                                 const PlotFrame& frame, std::uint64_t most, const Atlas& atlas,
+                                 const ExecutionContext& execution);
+
+/// A log or a snag.
+struct PlotLog {
+    std::uint64_t id = 0;
+    Substrate wood = Substrate::beech;
+    bool lies = true;
+    Mesh mesh;
+};
+
+/// Returns the wood of a kind of tree.
+[[nodiscard]] Substrate wood_of(const TreePreset& tree);
+
+/// Returns the dead trunks on a plot: logs are cut where they leave it.
+[[nodiscard]] std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,
+                                           const CoverField& cover, const Atlas& atlas);
+
+/// Leaves of one kind that lie on the floor.
+struct PlotLeaves {
+    LeafParams leaf;
+    Mesh one;  ///< of which all are copies
+    std::vector<GlbTransform> places;
+
+    /// Returns all of them as one mesh.
+    [[nodiscard]] Mesh merged() const;
+};
+
+/// Returns the leaves that lie on a plot, by kind of tree.
+///
+/// per_m2  where leaves cover the ground
+[[nodiscard]] std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& frame,
+                                                const CoverField& cover, double per_m2,
+                                                const Atlas& atlas);
+
+/// Returns the blades of grass of a plot as one mesh with tints; empty where none grows.
+///
+/// most  number of triangles
+[[nodiscard]] Mesh grass_of(const PlotContent& content, const PlotFrame& frame,
+                            const CoverField& cover, std::uint64_t most);
+
+}  // namespace sporeprint

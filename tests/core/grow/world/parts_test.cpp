@@ -1,0 +1,206 @@
+#include "core/grow/world/parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "core/world/tree_growth.h"
+#include "tests/support/worlds.h"
+
+namespace sporeprint::world_parts_test {
+namespace {
+
+WorldParams beech() {
+    WorldParams params = params_of(*atlas().find_world("beech"));
+    params.seed = 7;
+    params.extent.value = 256;
+    return params;
+}
+
+World world_with(const WorldParams& params) {
+    static const auto ground = std::make_shared<const Ground>(ground_of(beech()));
+    return world_of(params, lookup_in(atlas()), ground);
+}
+
+/// Returns services that the tests of one world share.
+const ExecutionContext& shared() {
+    static CachedParts cached;
+    return cached.services;
+}
+
+TEST(WorldParts, HaveAsManyFruitBodiesAsAWoodOfTheSpecies) {
+    const World world = world_with(beech());
+    constexpr int first = 80, years = 6;
+    double bodies = 0.0;
+    for (int year = first; year < first + years; ++year) {
+        const auto season = season_of_world(world, {0, 0}, year, shared());
+        for (const FruitBody& body : season->bodies)
+            if (body.emerged >= time_of(year) && body.emerged < time_of(year + 1)) bodies += 1.0;
+    }
+    const double per_plot = bodies / years / (block_side * block_side / 100.0);
+    // Between those of a pine wood and of an evergreen oak wood, per 100 m² and year, and a quarter beyond.
+    EXPECT_GT(per_plot, 28.0 * 0.75);
+    EXPECT_LT(per_plot, 84.0 * 1.25);
+}
+
+TEST(WorldParts, OfAYearHaveWhatStillStandsFromTheYearBefore) {
+    const World world = world_with(beech());
+    const auto before = season_of_world(world, {0, 0}, 80, shared()),
+               after = season_of_world(world, {0, 0}, 81, shared());
+    std::map<std::uint64_t, FruitBody> now;
+    for (const FruitBody& body : after->bodies) {
+        EXPECT_TRUE(now.emplace(body.id, body).second) << "each body is there once";
+        EXPECT_GT(body.gone, time_of(81));
+        EXPECT_LT(body.emerged, time_of(82));
+    }
+    std::size_t stayed = 0;
+    for (const FruitBody& body : before->bodies)
+        if (body.emerged < time_of(81) && body.gone > time_of(81)) {
+            ASSERT_TRUE(now.contains(body.id));
+            EXPECT_EQ(now.at(body.id), body);
+            ++stayed;
+        }
+    EXPECT_GT(stayed, 10U) << "brackets and candlesnuffs stay through the winter";
+}
+
+TEST(WorldParts, AreTheSameInEveryRectangleAndOrder) {
+    const World world = world_with(beech());
+    CachedParts other;
+    const WorldTime time = time_of(80, 270);
+    const WorldBox whole{20, 40, 60, 70};
+    const std::vector<FruitBody> all = bodies_in(world, whole, time, shared());
+    std::vector<FruitBody> parts;
+    // Cut within a block and at the border of two.
+    for (const WorldBox& box : {WorldBox{50, 64, 60, 70}, WorldBox{50, 40, 60, 64},
+                                WorldBox{20, 55, 50, 70}, WorldBox{20, 40, 50, 55}}) {
+        const std::vector<FruitBody> some = bodies_in(world, box, time, other.services);
+        parts.insert(parts.end(), some.begin(), some.end());
+    }
+    std::sort(parts.begin(), parts.end(),
+              [](const FruitBody& a, const FruitBody& b) { return a.id < b.id; });
+    EXPECT_FALSE(all.empty());
+    EXPECT_EQ(parts, all);
+}
+
+TEST(WorldParts, HaveNoBodyButBracketsWithoutRain) {
+    WorldParams params = beech();
+    params.climate.rain = 0.0;
+    const World world = world_with(params);
+    CachedParts cached;
+    const auto season = season_of_world(world, {0, 0}, 80, cached.services);
+    for (const FruitBody& body : season->bodies)
+        EXPECT_TRUE(world.species[body.species].ecology.body.perennial);
+}
+
+TEST(WorldParts, OfTreesAreThoseOfAllBlocksThatMayShadeARectangle) {
+    const World world = world_with(beech());
+    const Block around = blocks_round(world, {30, 30, 40, 40}, shared());
+    EXPECT_TRUE(std::is_sorted(around.trees.begin(), around.trees.end(),
+                               [](const StandTree& a, const StandTree& b) { return a.id < b.id; }));
+    std::map<CellIndex, std::size_t> found;
+    for (const StandTree& tree : around.trees) ++found[block_at(tree.at)];
+    EXPECT_EQ(found.size(), 9U) << "42 m are more than to the next block in all directions";
+    for (const auto& [block, number] : found)
+        EXPECT_EQ(number, block_of_world(world, block, shared())->trees.size());
+    EXPECT_LT(blocks_round(world, {-5, -5, 5, 5}, shared()).trees.size(), around.trees.size());
+}
+
+TEST(WorldParts, OfASmallRectangleAreThoseOfItsBlock) {
+    const World world = world_with(beech());
+    for (const int year : {0, 80}) {
+        const auto block = season_of_world(world, {0, 0}, year, shared());
+        for (const WorldBox& box : {WorldBox{3, 50, 20, 60.5}, WorldBox{60, 60, 63, 63}}) {
+            std::vector<FruitBody> inside;
+            for (const FruitBody& body : block->bodies)
+                if (contains(box, body.at)) inside.push_back(body);
+            CachedParts other;
+            EXPECT_EQ(bodies_of_year(world, box, year, other.services), inside) << year;
+        }
+    }
+}
+
+TEST(WorldParts, LookUpSpeciesWithTheirMonths) {
+    const WorldLookup lookup = lookup_in(atlas());
+    EXPECT_EQ(lookup.tree("no_such_tree"), nullptr);
+    EXPECT_FALSE(lookup.species("no_such_species").has_value());
+    const std::optional<SpeciesRecord> deceiver = lookup.species("laccaria_amethystina");
+    ASSERT_TRUE(deceiver.has_value());
+    EXPECT_EQ(deceiver->months, 0xFE0) << "June to December";
+    EXPECT_NEAR(deceiver->cap_radius, 0.0175, 1e-9) << "of caps of 1 to 6 cm";
+}
+
+/// Returns how many species a square has in the mean over all squares of that side in one of 160 m, in a year.
+///
+/// is_ours  which species are counted
+double species_in(const World& world, std::span<const FruitBody> bodies, int side,
+                  const std::function<bool(const FungusSpecies&)>& is_ours) {
+    std::map<std::pair<int, int>, std::set<int>> found;
+    for (const FruitBody& body : bodies)
+        if (is_ours(world.species[body.species])) {
+            const auto cell = [&](std::int32_t at) {
+                return static_cast<int>(std::floor((metres(at) + 80.0) / side));
+            };
+            found[{cell(body.at.x), cell(body.at.y)}].insert(body.species);
+        }
+    std::size_t sum = 0;
+    for (const auto& [cell, species] : found) sum += species.size();
+    const double squares = (160.0 / side) * (160.0 / side);
+    return static_cast<double>(sum) / squares;
+}
+
+/// Returns z of species = c area^z by least squares over squares of 100 to 25,600 m².
+double species_area_exponent(const World& world, std::span<const FruitBody> bodies,
+                             const std::function<bool(const FungusSpecies&)>& is_ours) {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (int k = 0; k < 5; ++k) {
+        const double area = k * std::log(4.0),
+                     species = std::log(species_in(world, bodies, 10 << k, is_ours));
+        x += area;
+        y += species;
+        xx += area * area;
+        xy += area * species;
+    }
+    return (5.0 * xy - x * y) / (5.0 * xx - x * x);
+}
+
+// The exponents of islands of trees are 0.47 for ectomycorrhizal fungi and 0.32 for saprotrophs.
+TEST(WorldParts, HaveMoreSpeciesOnLargerPlots) {
+    double mycorrhizal = 0.0, saprotrophic = 0.0;
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        WorldParams params = params_of(*atlas().find_world("mixed"));
+        params.seed = seed;
+        params.extent.value = 256;
+        const World world =
+            world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)));
+        const CachedParts cached;
+        const std::vector<FruitBody> bodies =
+            bodies_of_year(world, {-80, -80, 80, 80}, 80, cached.services);
+        const auto is_mycorrhizal = [](const FungusSpecies& species) {
+            return species.ecology.guild == Guild::ectomycorrhizal;
+        };
+        const double all =
+            species_area_exponent(world, bodies, [](const FungusSpecies&) { return true; });
+        EXPECT_GT(all, 0.15);
+        EXPECT_LT(all, 0.55);
+        mycorrhizal += species_area_exponent(world, bodies, is_mycorrhizal) / 3.0;
+        saprotrophic += species_area_exponent(world, bodies,
+                                              [&](const FungusSpecies& species) {
+                                                  return !is_mycorrhizal(species);
+                                              }) /
+                        3.0;
+    }
+    EXPECT_GT(mycorrhizal, saprotrophic);
+    EXPECT_NEAR(mycorrhizal, 0.4, 0.15);
+    EXPECT_NEAR(saprotrophic, 0.35, 0.15);
+}
+
+}  // namespace
+}  // namespace sporeprint::world_parts_test

@@ -1,0 +1,75 @@
+#include "core/grow/world/plot_places.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/direction.h"
+#include "core/world/tree_growth.h"
+#include "tests/support/plots.h"
+
+namespace sporeprint::grow_plot_places_test {
+namespace {
+
+/// A frame with what it refers to.
+struct Framed {
+    PlotContent content;
+    FloorHeights floor;
+    PlotFrame frame;
+
+    explicit Framed(const PlotContent& of)
+        : content(of), floor(*of.ground, of.seed, of.micro, {}), frame(of, floor) {}
+};
+
+TEST(PlotFrame, HasEastToTheRightAndNorthToTheBack) {
+    const Framed on(small_wood().content(1.0, -2.0));
+    const PlotFrame& frame = on.frame;
+    EXPECT_EQ(frame.at(2.0, -2.0, frame.height()), glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_EQ(frame.at(1.0, -1.0, frame.height()), glm::dvec3(0.0, 0.0, -1.0));
+    EXPECT_NEAR(frame.height(), 0.12 * 1.0 + 0.06 * 2.0, 0.002);
+    EXPECT_TRUE(frame.has(world_point(-1.0, -4.0)));
+    EXPECT_FALSE(frame.has(world_point(3.0, -2.0))) << "the east side belongs to the next plot";
+}
+
+TEST(PlotFrame, HasItsOriginInTheWorld) {
+    const Framed on(small_wood().content(1.0, -2.0));
+    EXPECT_EQ(on.frame.at(5.0, 3.0, 9.0) + on.frame.origin(), glm::dvec3(5.0, 9.0, -3.0));
+}
+
+TEST(PlotPlaces, OfATreeScaleItsModelToItsSize) {
+    const SmallWood& wood = small_wood();
+    const Framed on(wood.content());
+    const StandTree& tree = wood.trees.front();
+    const double height = height_at(tree, on.content.time);
+    const GlbTransform place = place_of(tree, on.content.time, {10.0, 2.5}, on.frame);
+    EXPECT_DOUBLE_EQ(place.scale.y, height / 10.0);
+    EXPECT_EQ(place.scale.x, place.scale.z);
+    EXPECT_GE(place.scale.x, 0.5 * place.scale.y);
+    EXPECT_LE(place.scale.x, 1.2 * place.scale.y);
+    EXPECT_NEAR(glm::length(place.rotation), 1.0, 1e-12);
+    const glm::dvec3 foot = on.frame.on_floor(metres(tree.at.x), metres(tree.at.y));
+    EXPECT_NEAR(foot.y - place.translation.y, 0.12 * trunk_diameter(height), 1e-12);
+}
+
+TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {
+    const SmallWood& wood = small_wood();
+    const Framed small(wood.content()), large(wood.content(0.0, 0.0, 32.0));
+    const DeadWood& log = wood.dead.front();
+    const auto part = trunk_line(log, small.content, small.frame),
+               whole = trunk_line(log, large.content, large.frame);
+    ASSERT_TRUE(part && whole);
+    EXPECT_EQ(whole->from, 0.0);
+    EXPECT_DOUBLE_EQ(whole->to, log.length);
+    EXPECT_GT(part->from, 3.0);
+    EXPECT_LT(part->to, 9.0);
+    EXPECT_GE(part->section(part->from).middle.x, -2.0);
+    EXPECT_LE(part->section(part->to).middle.x, 2.0);
+}
+
+TEST(PlotPlaces, WriteIdsInSixteenDigits) {
+    EXPECT_EQ(id_text(0), "0000000000000000");
+    EXPECT_EQ(id_text(0x0123456789abcdefULL), "0123456789abcdef");
+}
+
+}  // namespace
+}  // namespace sporeprint::grow_plot_places_test
