@@ -371,6 +371,7 @@ Plan plan_from_url(RouteCall& call) {
     MushroomRequest requested =
         read_mushroom(call.captured[0], call.target.query, *call.context.atlas, call.errors);
     requested.product = Format;
+    if constexpr (Format == Product::bin) as_geometry(requested.spec.params, call.errors);
     return plan_product<Mushrooms>(call.context, call.request, std::move(requested), call.errors);
 }
 
@@ -432,6 +433,14 @@ constexpr Route routes[] = {
      .media_type = glb,
      .query_schema = [](const Atlas&) { return schema<MushroomParams>(); },
      .plan = plan_from_url<Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/{mix}.bin",
+     .id = "get_mushroom_geometry",
+     .summary = "The geometry of that file alone, as files name it that share it: tiles of worlds.",
+     .media_type = "application/octet-stream",
+     .query_schema = [](const Atlas&) { return schema<MushroomParams>(); },
+     .plan = plan_from_url<Product::bin>},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/mushrooms/{mix}.json",

@@ -14,7 +14,7 @@
 
 namespace sporeprint::api {
 
-/// Returns the response to a request for a product, as GLB or as the JSON that describes it, as a
+/// Returns the response to a request for a product, as GLB or as its geometry alone, as the JSON that describes it, as a
 /// picture, or the job that computes it. Returns a problem response if `errors` is not empty. `Kind` has these
 /// static functions of a specification (`Spec`), and a type Resolved, empty at first, in which
 /// cost() may leave what it has resolved for grow() and describe():
@@ -72,6 +72,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
                 dump(Kind::describe(context, *spec, *resolved, version, job.execution())))};
         Extras extras;
         extras.canonical = url;
+        if (product == Product::bin) extras.write = geometry_bytes;
         if (has_addresses(spec->params.textures)) {
             const ImageUrls urls = Kind::image_urls(context, *spec, version, job.execution());
             extras.image_urls = references_from(depth, urls);

@@ -315,12 +315,13 @@ struct PresetProduct {
     }
 };
 
-/// Handles GET /v1/{kind}/{preset}.glb and .json.
+/// Handles GET /v1/{kind}/{preset}.glb, .json and .bin.
 template <class Kind, Product Format>
 Plan plan_preset_url(RouteCall& call) {
     auto requested =
         read_preset<Kind>(*call.context.atlas, call.captured[0], call.target.query, call.errors);
     requested.product = Format;
+    if constexpr (Format == Product::bin) as_geometry(requested.spec.params, call.errors);
     return plan_product<PresetProduct<Kind>>(call.context, call.request, std::move(requested),
                                              call.errors);
 }

@@ -16,6 +16,8 @@ const char* ending_of(Product product) {
             return ".json";
         case Product::png:
             return ".png";
+        case Product::bin:
+            return ".bin";
     }
     return "";
 }
@@ -28,6 +30,8 @@ const char* type_of(Product product) {
             return "application/json";
         case Product::png:
             return "image/png";
+        case Product::bin:
+            return "application/octet-stream";
     }
     return "";
 }

@@ -24,10 +24,10 @@ namespace sporeprint::api {
 /// The decoded names and values of a query.
 using Query = std::span<const std::pair<std::string, std::string>>;
 
-/// What is generated: a file, its description, or a picture.
-enum class Product { glb, json, png };
+/// What is generated: a file, its description, a picture, or the geometry of the file alone.
+enum class Product { glb, json, png, bin };
 
-/// Returns the extension of the file: ".glb", ".json" or ".png".
+/// Returns the extension of the file: ".glb", ".json", ".png" or ".bin".
 [[nodiscard]] const char* ending_of(Product product);
 
 /// Returns the media type of the file.
@@ -136,6 +136,22 @@ template <class Image, class Model>
         if (is_query_name<Image>(pair.first) || !is_query_name<Model>(pair.first))
             rest.push_back(pair);
     return rest;
+}
+
+/// Makes parameters of a file those of its geometry alone, which other files name: it is of the file with linked images.
+/// Options that such geometry cannot have are 422.
+template <class Params>
+void as_geometry(Params& params, ValidationErrors& errors) {
+    params.textures = Textures::linked;
+    const auto refuse = [&](bool is_impossible, const char* parameter) {
+        if (is_impossible)
+            errors.add(422, parameter,
+                       "geometry alone is one mesh of plain numbers; ask for the .glb with it");
+    };
+    refuse(params.file.compress != Compression::none, "compress");
+    refuse(params.file.lods != Lods::single, "lods");
+    if constexpr (requires { params.animation; })
+        refuse(params.animation != Animation::none, "animation");
 }
 
 /// Returns the URLs of all images of an atlas; `url` returns that of one kind and format.

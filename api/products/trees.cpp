@@ -11,9 +11,6 @@ namespace sporeprint::api {
 
 namespace {
 
-/// The folder of the images of leaves on trees, which is below that of the trees.
-constexpr const char* folder_of_leaves = "/v1/trees/leaves/";
-
 /// Returns the rows of a body; nothing if they are not lists of numbers.
 std::optional<RamificationMatrix> rows_of(const Value& given) {
     if (!given.is_array() || given.items().size() >= most_order) return std::nullopt;
@@ -35,6 +32,11 @@ bool says(const Value& body, const char* key, const char* text) {
 }
 
 }  // namespace
+
+ImageUrls foliage_image_urls(const std::string& leaf, const LeafPaint& paint, const Atlas& atlas) {
+    return preset_image_urls<Leaves>(atlas, folder_of_leaves, leaf, paint,
+                                     preset_token<Leaves>(atlas, leaf));
+}
 
 void Trees::take_from_body(Value& body, ValidationErrors& errors) {
     const Value* given = body.find("rows");
@@ -74,11 +76,9 @@ Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras
                   const ExecutionContext& execution) {
     ImageUrls of_leaves;
     if (has_addresses(spec.params.textures)) {
-        const std::string leaf = spec.params.look.leaf.id.string();
-        of_leaves =
-            references_from(depth, preset_image_urls<Leaves>(atlas, folder_of_leaves, leaf,
-                                                             paint_of(leaf_of(spec.params, atlas)),
-                                                             preset_token<Leaves>(atlas, leaf)));
+        of_leaves = references_from(
+            depth, foliage_image_urls(spec.params.look.leaf.id.string(),
+                                      paint_of(leaf_of(spec.params, atlas)), atlas));
     }
     return grow_tree(spec, atlas, extras, of_leaves, execution);
 }
@@ -191,6 +191,15 @@ constexpr Route routes[] = {
      .example = example_preset,
      .query_schema = params_schema,
      .plan = plan_preset_url<Trees, Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/trees/{preset}.bin",
+     .id = "get_tree_geometry",
+     .summary = "The geometry of that file alone, as files name it that share it: tiles of worlds.",
+     .media_type = "application/octet-stream",
+     .example = example_preset,
+     .query_schema = params_schema,
+     .plan = plan_preset_url<Trees, Product::bin>},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/trees/{preset}.json",

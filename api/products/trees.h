@@ -56,6 +56,15 @@ struct Trees {
     static void add_details(const TreeSpec& spec, Value& body);
 };
 
+/// The folder of the images of leaves on trees, which is below that of the trees.
+inline constexpr const char* folder_of_leaves = "/v1/trees/leaves/";
+
+/// Returns the URLs of the images of the leaves of trees, with their version tokens.
+///
+/// leaf  id of the preset of the leaf
+[[nodiscard]] ImageUrls foliage_image_urls(const std::string& leaf, const LeafPaint& paint,
+                                           const Atlas& atlas);
+
 extern const RouteGroup tree_routes;
 
 }  // namespace sporeprint::api

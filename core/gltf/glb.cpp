@@ -273,13 +273,67 @@ std::vector<PrimitivePart> parts_of(const GlbScene& scene, const std::vector<flo
     return parts;
 }
 
+/// A buffer that is a file of its own.
+struct LinkedBuffer {
+    std::string uri;
+    std::size_t bytes = 0;
+};
+
+bool has_linked_geometry(const GlbScene& scene) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                       [](const GlbMesh& mesh) { return !mesh.geometry_uri.empty(); });
+}
+
+/// Throws GenerationError for geometry that cannot be a file of its own.
+void check_linked(const GlbScene& scene) {
+    if (scene.geometry != GlbGeometry::floats)
+        throw GenerationError("quantised geometry cannot be a file of its own");
+    for (const GlbMesh& mesh : scene.meshes)
+        for (const GlbPrimitive& primitive : mesh.primitives)
+            if (!primitive.targets.empty())
+                throw GenerationError("geometry with targets cannot be a file of its own");
+}
+
+/// Writes all primitives, those of meshes that have an address into buffers of their own.
+std::vector<PrimitiveJson> write_linked(const GlbScene& scene,
+                                        const std::vector<PrimitivePart>& parts,
+                                        const Parallel& parallel, Tables& tables, Body& geometries,
+                                        std::vector<LinkedBuffer>& linked) {
+    check_linked(scene);
+    std::vector<PrimitiveJson> written;
+    std::size_t in_file = tables.binary, first = 0;
+    Body elsewhere;
+    for (const GlbMesh& mesh : scene.meshes) {
+        const auto own = std::span(parts).subspan(first, mesh.primitives.size());
+        first += mesh.primitives.size();
+        const bool is_linked = !mesh.geometry_uri.empty();
+        tables.buffer = is_linked ? linked.size() + 1 : 0;
+        tables.binary = is_linked ? 0 : in_file;
+        const std::vector<PrimitiveJson> primitives = write_primitives(
+            own, scene.sway, scene.geometry, parallel, tables, is_linked ? elsewhere : geometries);
+        written.insert(written.end(), primitives.begin(), primitives.end());
+        if (is_linked)
+            linked.push_back({mesh.geometry_uri, tables.binary});
+        else
+            in_file = tables.binary;
+    }
+    tables.buffer = 0;
+    tables.binary = in_file;
+    return written;
+}
+
 /// Returns the JSON of all meshes, and appends their buffers to `geometries`.
 ///
-/// steps  of the positions of each mesh
+/// steps   of the positions of each mesh
+/// linked  receives the buffers that are files of their own
 std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps,
-                        const Parallel& parallel, Tables& tables, Body& geometries) {
-    const std::vector<PrimitiveJson> written = write_primitives(
-        parts_of(scene, steps), scene.sway, scene.geometry, parallel, tables, geometries);
+                        const Parallel& parallel, Tables& tables, Body& geometries,
+                        std::vector<LinkedBuffer>& linked) {
+    const std::vector<PrimitivePart> parts = parts_of(scene, steps);
+    const std::vector<PrimitiveJson> written =
+        has_linked_geometry(scene)
+            ? write_linked(scene, parts, parallel, tables, geometries, linked)
+            : write_primitives(parts, scene.sway, scene.geometry, parallel, tables, geometries);
     std::string meshes;
     auto next = written.begin();
     for (const GlbMesh& mesh : scene.meshes) {
@@ -364,7 +418,8 @@ Body glb(const GlbScene& scene, const Parallel& parallel) {
     if (scene.geometry != GlbGeometry::floats) used.require(quantization);
     if (scene.geometry == GlbGeometry::compressed) used.require(meshopt_compression);
     const std::vector<float> steps = steps_of(scene);
-    const std::string meshes = meshes_json(scene, steps, parallel, tables, geometries);
+    std::vector<LinkedBuffer> linked;
+    const std::string meshes = meshes_json(scene, steps, parallel, tables, geometries, linked);
     const NodeData nodes = node_data(scene, steps, tables, used, geometries);
     AnimationData clip;
     if (scene.clip) {
@@ -399,8 +454,15 @@ Body glb(const GlbScene& scene, const Parallel& parallel) {
     if (!texture_tables.textures.empty())
         json += ",\"textures\":[" + texture_tables.textures + "],\"samplers\":[" +
                 texture_tables.samplers + "],\"images\":[" + texture_tables.images + "]";
+    // The first buffer of a file that has none of its own would be that of the BIN chunk.
+    if (tables.binary == 0 && !linked.empty())
+        throw GenerationError("a file with linked geometry has data of its own");
     if (tables.binary > 0) {
         append(json += ",\"buffers\":[{\"byteLength\":", tables.binary);
+        for (const LinkedBuffer& buffer : linked) {
+            append(json += "},{\"byteLength\":", buffer.bytes);
+            append_quoted(json += ",\"uri\":", buffer.uri);
+        }
         if (tables.decompressed > 0) {
             append(json += "},{\"byteLength\":", tables.decompressed);
             ((json += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"fallback\":true}}";
@@ -414,6 +476,15 @@ Body glb(const GlbScene& scene, const Parallel& parallel) {
     body.insert(body.end(), geometries.begin(), geometries.end());
     append_images(texture_tables, body);
     return body;
+}
+
+Body geometry_bytes(const GlbScene& scene, const Parallel& parallel) {
+    check_linked(scene);
+    Tables tables;
+    Body geometries;
+    static_cast<void>(write_primitives(parts_of(scene, steps_of(scene)), scene.sway, scene.geometry,
+                                       parallel, tables, geometries));
+    return geometries;
 }
 
 }  // namespace sporeprint

@@ -99,6 +99,9 @@ struct GlbMesh {
     std::string name;
     std::vector<GlbPrimitive> primitives;  ///< all with the same number of targets
     GlbRole role = GlbRole::body;          ///< for pictures, not part of the file
+    /// Address of its geometry, relative to that of the file: what geometry_bytes() returns for a scene of this mesh
+    /// alone. Empty for geometry in the file. Readers must resolve it.
+    std::string geometry_uri = {};
 };
 
 /// The transform of an instance.
@@ -183,7 +186,14 @@ struct GlbScene {
 ///           material needs, an index of no mesh, material or node, a node with a mesh and children,
 ///           a node with two parents, a rotation that is no unit quaternion, a zero scale,
 ///           targets, variants or a clip that do not fit, sway as texture coordinates of a mesh
-///           without others, or a file of more than 2^32 - 1 bytes
+///           without others, geometry with an address that is quantised or has targets, or beside no data in
+///           the file, or a file of more than 2^32 - 1 bytes
 [[nodiscard]] Body glb(const GlbScene& scene, const Parallel& parallel = in_turn);
+
+/// Returns the geometry of all meshes of a scene as it lies in its file, and nothing else: what other files name as
+/// GlbMesh::geometry_uri.
+///
+/// throws    GenerationError for quantised geometry and for targets, and as glb() does
+[[nodiscard]] Body geometry_bytes(const GlbScene& scene, const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

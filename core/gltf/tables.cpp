@@ -50,7 +50,8 @@ void Stream::set_bytes(Bytes encoded) {
 
 std::size_t Tables::view(std::size_t length, int target) {
     views += count == 0 ? "" : ",";
-    append(views += "{\"buffer\":0,\"byteOffset\":", binary);
+    append(views += "{\"buffer\":", buffer);
+    append(views += ",\"byteOffset\":", binary);
     append(views += ",\"byteLength\":", length);
     if (target != 0) views += ",\"target\":" + std::to_string(target);
     views += '}';
@@ -69,7 +70,8 @@ std::size_t Tables::stream(const Stream& stream) {
     const std::size_t plain = stream.items * stream.stride;
     views += count == 0 ? "" : ",";
     // A compressed view lies in the second buffer, which no file contains.
-    views += std::string("{\"buffer\":") + (stream.mode ? "1" : "0") + ",\"byteOffset\":";
+    append(views += "{\"buffer\":", stream.mode ? std::size_t{1} : buffer);
+    views += ",\"byteOffset\":";
     append(views, stream.mode ? decompressed : binary);
     append(views += ",\"byteLength\":", plain);
     if (stream.target == vertex_target) append(views += ",\"byteStride\":", stream.stride);

@@ -79,6 +79,7 @@ struct Tables {
     std::string views, accessors;
     std::size_t count = 0, binary = 0;  ///< number of views; bytes of the BIN chunk so far, padded
     std::size_t decompressed = 0;       ///< bytes of all compressed views when decompressed
+    std::size_t buffer = 0;             ///< that views are of: 0 for the BIN chunk
 
     std::size_t view(std::size_t length, int target = 0);
 

@@ -129,11 +129,12 @@ Cover CoverField::at(double x, double y) const {
 }
 
 CoverField cover_field(const WorldBox& box, double margin,
-                       const std::function<Cover(double, double)>& cover) {
-    const auto number = [](double metres) {
-        return static_cast<int>(std::floor(metres / CoverField::step));
+                       const std::function<Cover(double, double)>& cover, double step) {
+    const auto number = [step](double metres) {
+        return static_cast<int>(std::floor(metres / step));
     };
     CoverField field;
+    field.step = step;
     field.west = number(box.west - margin);
     field.south = number(box.south - margin);
     field.columns = number(box.east + margin) + 2 - field.west;
@@ -142,8 +143,7 @@ CoverField cover_field(const WorldBox& box, double margin,
                         static_cast<std::size_t>(field.rows));
     for (int row = 0; row < field.rows; ++row)
         for (int column = 0; column < field.columns; ++column)
-            field.nodes.push_back(cover((field.west + column) * CoverField::step,
-                                        (field.south + row) * CoverField::step));
+            field.nodes.push_back(cover((field.west + column) * step, (field.south + row) * step));
     return field;
 }
 

@@ -78,8 +78,9 @@ inline constexpr double leaves_per_year = 2360.0, area_of_leaf = 20.6e-4;
 
 /// Cover on a grid of nodes at multiples of `step`, so that neighbouring fields share nodes.
 struct CoverField {
-    static constexpr double step = 0.5;  ///< metres
-    int west = 0, south = 0;             ///< numbers of the first column and row
+    static constexpr double finest_step = 0.5;
+    double step = finest_step;  ///< metres: finest_step times a power of two
+    int west = 0, south = 0;    ///< numbers of the first column and row
     int columns = 0, rows = 0;
     std::vector<Cover> nodes;  ///< by rows from south to north
 
@@ -95,7 +96,9 @@ struct CoverField {
 ///
 /// margin  metres
 /// cover   of a place, metres
+/// step    of the field, metres
 [[nodiscard]] CoverField cover_field(const WorldBox& box, double margin,
-                                     const std::function<Cover(double, double)>& cover);
+                                     const std::function<Cover(double, double)>& cover,
+                                     double step = CoverField::finest_step);
 
 }  // namespace sporeprint

@@ -42,9 +42,16 @@ constexpr int cell_bits = 17;
 constexpr double cell = 0.25;
 static_assert(cell * floor_units == 1 << cell_bits);
 
-/// The step of the field of cover, as a power of two in floor_units.
-constexpr int step_bits = 18;
-static_assert(CoverField::step * floor_units == 1 << step_bits);
+/// The finest step of a field of cover, as a power of two in floor_units.
+constexpr int finest_step_bits = 18;
+static_assert(CoverField::finest_step * floor_units == 1 << finest_step_bits);
+
+/// Returns the step of a field as a power of two in floor_units.
+int bits_of_step(const CoverField& field) {
+    int bits = finest_step_bits;
+    for (double step = CoverField::finest_step; step < field.step; step *= 2.0) ++bits;
+    return bits;
+}
 
 /// Pieces that may lie in a cell, in the order in which they are painted.
 struct Layer {
@@ -91,7 +98,7 @@ constexpr std::array<Lattice, floor_noises> lattices{{{0.55, 0.8, 0.6},
                                                       {0.045, 0.96, -0.28},
                                                       {0.016, 0.6, -0.8},
                                                       {0.027, 15.0 / 17.0, 8.0 / 17.0}}};
-/// Crumbs are not smaller than so many texels.
+/// Crumbs are not smaller than so many texels; from afar no noise is.
 constexpr double least_crumb = 2.4;
 
 /// Directions of pieces are multiples of a turn divided by this.
@@ -167,12 +174,19 @@ class FloorPainter {
     std::vector<PackedStamp> stamps_;
     std::vector<float> leaves_;  ///< at the nodes of the field, of each stamp
     float fading_ = 0.0F, wet_ = 0.5F;
+    int step_bits_ = finest_step_bits;
+    glm::vec3 leaf_mean_{0.0F};  ///< colour of leaves as they look from afar
 
     void set_columns();
     void set_cover();
     void set_stamps();
+    void add_mean(const LeafStamp& stamp);
 
     void paint_row(FloorCanvas& canvas, int row, std::vector<float>& space) const;
+    /// Mixes the mean colour of leaves into a row of soil.
+    ///
+    /// at_nodes  shares of leaves at the nodes of the field along the row
+    void mix_leaves(FloorCanvas& canvas, int row, const float* at_nodes) const;
     /// Returns the mean of the values at the four nodes round a piece.
     template <class Value>
     [[nodiscard]] float between(const Piece& at, Value value) const;
@@ -194,6 +208,7 @@ FloorPainter::FloorPainter(const FloorPaint& paint, RawImages& images)
     texel_ = (paint.box.east - paint.box.west) / (paint.side - 1);
     margin_ = std::max(2, static_cast<int>(blur / texel_ + 0.5)) + 1;
     stride_ = static_cast<std::size_t>(paint.side + 2 * margin_) + floor_padding;
+    step_bits_ = bits_of_step(*paint.cover);
     set_columns();
     set_cover();
     set_stamps();
@@ -216,16 +231,17 @@ void FloorPainter::set_columns() {
     part_.reserve(stride_);
     columns_.assign(static_cast<std::size_t>(field.columns), paint_.side + 2 * margin_);
     for (std::size_t k = stride_; k-- > 0;) {
-        const int node = std::clamp((x_[k] >> step_bits) - field.west, 0, field.columns - 2);
+        const int node = std::clamp((x_[k] >> step_bits_) - field.west, 0, field.columns - 2);
         for (int i = 0; i < node; ++i) columns_[static_cast<std::size_t>(i)] = static_cast<int>(k);
     }
     for (const std::int32_t x : x_)
-        part_.push_back(static_cast<float>(x & ((1 << step_bits) - 1)) / (1 << step_bits));
+        part_.push_back(static_cast<float>(x & ((1 << step_bits_) - 1)) /
+                        static_cast<float>(1 << step_bits_));
     Random random(paint_.seed, purposes::floor_noise, 1);
     for (std::uint32_t& seed : noise_seeds_) seed = random.bits();
     for (std::size_t k = 0; k < floor_noises; ++k) {
-        const double length =
-            std::max(lattices[k].length, k == noise_crumbs ? least_crumb * texel_ : 0.0);
+        const double length = std::max(
+            lattices[k].length, k == noise_crumbs || !paint_.pieces ? least_crumb * texel_ : 0.0);
         per_cell_[k] = (1 << noise_bits) / length;
         for (const std::int32_t x : x_) {
             const double along = x * unit_metres * per_cell_[k];
@@ -255,13 +271,29 @@ void FloorPainter::set_stamps() {
         const LeafLitter& litter = paint_.kinds[kind];
         if (has_needles(litter)) continue;
         const double texels = litter.shape.length / texel_;
-        stamps_.push_back(packed(
-            leaf_stamp(litter, std::clamp(static_cast<int>(1.6 * texels + 0.5), 12, 64)), kind));
+        const LeafStamp stamp =
+            leaf_stamp(litter, std::clamp(static_cast<int>(1.6 * texels + 0.5), 12, 64));
+        if (!paint_.pieces) add_mean(stamp);
+        stamps_.push_back(packed(stamp, kind));
     }
+    if (!stamps_.empty()) leaf_mean_ /= static_cast<float>(stamps_.size());
     leaves_.reserve(stamps_.size() * paint_.cover->nodes.size());
     for (const Cover& at : paint_.cover->nodes)
         for (const PackedStamp& stamp : stamps_)
             leaves_.push_back(static_cast<float>(at.leaves[stamp.kind]));
+}
+
+void FloorPainter::add_mean(const LeafStamp& stamp) {
+    // Of the tints that paint_leaf() draws: two in three leaves show the upper face, most have faded.
+    constexpr float of_upper = 0.64F, faded = 0.80F;
+    glm::vec3 sum(0.0F);
+    float covered = 0.0F;
+    for (const LeafStamp::Texel& texel : stamp.texels) {
+        sum +=
+            texel.cover * (of_upper * texel.upper + (1.0F - of_upper) * lower_face * texel.lower);
+        covered += texel.cover;
+    }
+    if (covered > 0.0F) leaf_mean_ += sum * (faded / covered);
 }
 
 void FloorPainter::paint_band(int from, int to) const {
@@ -276,7 +308,8 @@ void FloorPainter::paint_band(int from, int to) const {
     std::vector<float> space(floor_shares *
                              (stride_ + static_cast<std::size_t>(paint_.cover->columns)));
     for (int row = 0; row < canvas.rows; ++row) paint_row(canvas, row, space);
-    for (std::size_t layer = 0; layer < layers.size(); ++layer) paint_layer(canvas, layer);
+    for (std::size_t layer = 0; paint_.pieces && layer < layers.size(); ++layer)
+        paint_layer(canvas, layer);
     finish(canvas, from, to);
 }
 
@@ -297,8 +330,9 @@ void FloorPainter::paint_row(FloorCanvas& canvas, int row, std::vector<float>& s
     soil.nodes = nodes;
     soil.columns = columns_.data();
     soil.part = part_.data();
-    const int south = std::clamp((y >> step_bits) - field.south, 0, field.rows - 2);
-    const float north = static_cast<float>(y & ((1 << step_bits) - 1)) / (1 << step_bits);
+    const int south = std::clamp((y >> step_bits_) - field.south, 0, field.rows - 2);
+    const float north =
+        static_cast<float>(y & ((1 << step_bits_) - 1)) / static_cast<float>(1 << step_bits_);
     const auto* const below = &shares_[static_cast<std::size_t>(south) * nodes];
     const auto* const above = below + nodes;
     for (std::size_t share = 0; share < floor_shares; ++share) {
@@ -309,6 +343,30 @@ void FloorPainter::paint_row(FloorCanvas& canvas, int row, std::vector<float>& s
         soil.between[share] = space.data() + floor_shares * nodes + share * stride_;
     }
     HWY_DYNAMIC_DISPATCH(paint_soil)(canvas, row, soil);
+    if (!paint_.pieces && !stamps_.empty()) mix_leaves(canvas, row, soil.shares[share_leaves]);
+}
+
+void FloorPainter::mix_leaves(FloorCanvas& canvas, int row, const float* at_nodes) const {
+    float* const red = canvas.at(row, floor_red);
+    float* const green = canvas.at(row, floor_green);
+    float* const blue = canvas.at(row, floor_blue);
+    const float* const moss = canvas.at(row, floor_moss);
+    const float* const water = canvas.at(row, floor_water);
+    const std::size_t last = static_cast<std::size_t>(paint_.cover->columns) - 2;
+    std::size_t node = 0;
+    for (int i = 0; i < canvas.columns; ++i) {
+        while (node < last && i >= columns_[node]) ++node;
+        const float part = part_[static_cast<std::size_t>(i)];
+        const float leaves = at_nodes[node] + part * (at_nodes[node + 1] - at_nodes[node]);
+        // About as many leaves lie over each other as hide the ground where they cover it.
+        const float hidden =
+            unit(1.6F * leaves) * (1.0F - 0.8F * moss[i]) * (1.0F - 0.9F * water[i]);
+        // The noise of the ground makes heaps of leaves brighter and gaps between them darker.
+        const float bright = 0.55F + 1.6F * red[i];
+        red[i] += hidden * (bright * leaf_mean_.x - red[i]);
+        green[i] += hidden * (bright * leaf_mean_.y - green[i]);
+        blue[i] += hidden * (bright * leaf_mean_.z - blue[i]);
+    }
 }
 
 template <class Value>
@@ -321,7 +379,7 @@ float FloorPainter::between(const Piece& at, Value value) const {
 
 float FloorPainter::most_of(std::size_t piece, std::size_t node) const {
     // A cell is within a square of the nodes of the field, between which chances are linear.
-    static_assert(CoverField::step / cell == 2.0);
+    static_assert(CoverField::finest_step / cell == 2.0);
     const std::size_t above = node + static_cast<std::size_t>(paint_.cover->columns);
     // Slightly more, so that rounding leaves nothing out.
     return 1.00001F * std::max(std::max(chances_[node][piece], chances_[node + 1][piece]),
@@ -361,9 +419,9 @@ void FloorPainter::paint_layer(FloorCanvas& canvas, std::size_t number) const {
                 piece.x = (column << cell_bits) + static_cast<std::int32_t>(draws[0] >> 16U) * 2;
                 piece.y = (row << cell_bits) + static_cast<std::int32_t>(draws[0] & 0xffffU) * 2;
                 if (piece.y < low || piece.y > high) continue;
-                constexpr std::int32_t within = (1 << step_bits) - 1;
-                piece.east = static_cast<float>(piece.x & within) / (1 << step_bits);
-                piece.north = static_cast<float>(piece.y & within) / (1 << step_bits);
+                constexpr std::int32_t within = (1 << finest_step_bits) - 1;
+                piece.east = static_cast<float>(piece.x & within) / (1 << finest_step_bits);
+                piece.north = static_cast<float>(piece.y & within) / (1 << finest_step_bits);
                 if (chance >= most * between(piece, [&](std::size_t node) {
                                   return chances_[node][piece_index];
                               }))
@@ -552,6 +610,8 @@ RawImages floor_images(const FloorPaint& paint, const Parallel& parallel) {
         throw InvalidInput("/side", "the side of the images of a floor is 16..4096 texels");
     if (paint.cover == nullptr || paint.cover->columns < 2 || paint.cover->rows < 2)
         throw InvalidInput("/cover", "a floor has no images without its cover");
+    if (paint.pieces && paint.cover->step != CoverField::finest_step)
+        throw InvalidInput("/cover", "the pieces of a floor need the finest step of its cover");
     const auto side = static_cast<std::size_t>(paint.side);
     RawImages images{paint.side, {}};
     for (Bytes& image : images.rgb) image.resize(3 * side * side);

@@ -22,6 +22,9 @@ struct FloorPaint {
     int day = 1;             ///< of the year: leaves fade from their fall on
     std::span<const LeafLitter> kinds;  ///< of the stand, at most most_kinds
     const CoverField* cover = nullptr;  ///< of the box and of floor_margin round it
+    /// Whether each leaf, needle and blade is painted, for which the cover has its finest step. Otherwise their colours
+    /// are mixed into the ground, as they look from afar, and noises are as broad as texels need it.
+    bool pieces = true;
 };
 
 /// How far beyond a box its images depend on the cover, metres.

@@ -109,6 +109,12 @@ double FloorHeights::at(double x, double y) const {
 double slab_height(double height) { return std::floor(height / slab_step + 0.5) * slab_step; }
 
 Mesh slab_mesh(const SlabParams& params, const FloorHeights& floor) {
+    return slab_mesh(params, [&floor](std::span<const double> x, std::span<const double> y) {
+        return floor.at(x, y);
+    });
+}
+
+Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
     const auto nodes = static_cast<std::size_t>(params.nodes);
     const double last = params.nodes - 1;
     const double width = params.box.east - params.box.west,
@@ -123,7 +129,7 @@ Mesh slab_mesh(const SlabParams& params, const FloorHeights& floor) {
         x.push_back(rounded((1.0 - t) * params.box.west + t * params.box.east));
         y.push_back(rounded((1.0 - t) * params.box.north + t * params.box.south));
     }
-    const std::vector<double> heights = floor.at(x, y);
+    const std::vector<double> heights = heights_at(x, y);
     const auto height = [&](std::size_t column, std::size_t row) {
         return heights[row * (nodes + 2) + column];
     };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <utility>
@@ -81,5 +82,12 @@ inline constexpr double slab_step = 1.0 / 4096.0;
 ///          first, by rows from north to south. Walls show the image beside their border, darkened
 /// cost     O(nodes²)
 [[nodiscard]] Mesh slab_mesh(const SlabParams& params, const FloorHeights& heights);
+
+/// Heights of a grid of places, as FloorHeights::at() returns them.
+using GridHeights =
+    std::function<std::vector<double>(std::span<const double> x, std::span<const double> y)>;
+
+/// Returns a slab whose top has other heights.
+[[nodiscard]] Mesh slab_mesh(const SlabParams& params, const GridHeights& heights);
 
 }  // namespace sporeprint

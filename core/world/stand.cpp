@@ -8,14 +8,15 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/world/cell_random.h"
+#include "core/world/patches.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
 
 namespace {
 
-/// Sides of the squares that have one seed of a patch each, and of those that seedlings are drawn in.
-constexpr std::int32_t patch_units = 22 * units_of_metre, nursery_units = patch_units / 4;
+/// Sides of the squares that seedlings are drawn in.
+constexpr std::int32_t nursery_units = patch_units / 4;
 constexpr int nurseries_of_patch = 4;
 
 /// How far a chain of four rounds of competition reaches, and how far one of them, metres.
@@ -27,71 +28,14 @@ constexpr double seedling_density = 0.2;
 /// Within so many years after a storm, trees are born; the strongest is as strong as if it was born so many earlier.
 constexpr double birth_years = 12.0, vigour_years = 10.0;
 
-/// Patches begin so many years before year 0 at a storm. By year 0, the time since the last one no longer depends on
-/// that.
-constexpr int years_before = 1500;
-
-/// Weibull distributions of the time between storms and of the age of death.
-constexpr double storm_shape = 2.0, storm_mean = 0.886226925452758;  // gamma(1 + 1/2)
-constexpr double age_shape = 3.0, age_mean = 0.892979511569249;      // gamma(1 + 1/3)
-
-/// Returns a draw of a Weibull distribution.
-///
-/// mean_of_one  mean for scale 1: gamma(1 + 1 / shape)
-double weibull(double uniform, double mean, double shape, double mean_of_one) {
-    return mean / mean_of_one * power(-logarithm(1.0 - uniform), 1.0 / shape);
-}
+/// The Weibull distribution of the age of death.
+constexpr double age_shape = 3.0, age_mean = 0.892979511569249;  // gamma(1 + 1/3)
 
 /// How far heights of a kind differ from their mean, as a share of it.
 constexpr double height_variation = 0.18;
 
 double mean_height(const Stand& stand, const StandKind& kind) {
     return stand.params.height * kind.ecology.height / standard_height;
-}
-
-WorldTime time_after(WorldTime begin, double years) {
-    return begin + static_cast<WorldTime>(std::floor(years * ticks_of_year));
-}
-
-std::int32_t floor_div(std::int32_t number, std::int32_t by) {
-    const std::int32_t quotient = number / by;
-    return number % by < 0 ? quotient - 1 : quotient;
-}
-
-/// Returns a place in a square: a draw of 24 bits as a fraction of its side.
-std::int32_t place_in(std::int32_t cell, std::int32_t side, std::uint32_t bits) {
-    return cell * side + static_cast<std::int32_t>((std::int64_t{side} * (bits >> 8)) >> 24);
-}
-
-std::int64_t square_distance(WorldPoint a, WorldPoint b) {
-    const std::int64_t x = a.x - b.x, y = a.y - b.y;
-    return x * x + y * y;
-}
-
-/// A patch: its seed, and the storms between which its cohorts live.
-struct Patch {
-    CellIndex cell;
-    WorldPoint seed;
-    std::vector<WorldTime> storms;
-};
-
-Patch patch_of(const Stand& stand, CellIndex cell) {
-    Random random(stand.seed, purposes::patches, 0, cell);
-    Patch patch;
-    patch.cell = cell;
-    patch.seed.x = place_in(cell.x, patch_units, random.bits());
-    patch.seed.y = place_in(cell.y, patch_units, random.bits());
-    const double mean = stand.params.patch_years;
-    const double phase = random.uniform();
-    WorldTime storm = time_after(-years_before * ticks_of_year, -phase * mean);
-    const WorldTime end = end_of_trees;
-    while (storm < end) {
-        patch.storms.push_back(storm);
-        const double draw = random.uniform();
-        storm = time_after(storm, std::max(5.0, weibull(draw, mean, storm_shape, storm_mean)));
-    }
-    patch.storms.push_back(storm);
-    return patch;
 }
 
 /// A rectangle of squares.
@@ -225,7 +169,7 @@ class Nursery {
     }
 
     /// Returns the last storm of a patch before or at a moment.
-    static WorldTime storm_before(const Patch& patch, WorldTime time) {
+    static WorldTime storm_before(const StandPatch& patch, WorldTime time) {
         return *std::prev(std::upper_bound(patch.storms.begin(), patch.storms.end(), time));
     }
 
@@ -245,7 +189,7 @@ class Nursery {
 
     /// Adds the seedlings of a patch in a square.
     void add(CellIndex cell, std::size_t owner, std::vector<Seedling>& out) {
-        const Patch& patch = patches_[owner];
+        const StandPatch& patch = patches_[owner];
         for (std::size_t i = 0; i + 1 < patch.storms.size(); ++i)
             if (patch.storms[i + 1] > since_[owner] && patch.storms[i] < end_of_trees)
                 add(cell, owner, static_cast<std::uint32_t>(i), out);
@@ -255,7 +199,7 @@ class Nursery {
         constexpr double side = static_cast<double>(nursery_units) / units_of_metre,
                          mean = seedling_density * side * side;
         static const double none = exponential(-mean);
-        const Patch& patch = patches_[owner];
+        const StandPatch& patch = patches_[owner];
         // Which of the patches round the square it is, and which of its cohorts.
         const CellIndex first = neighbour(cell, 0);
         const auto which =
@@ -345,7 +289,7 @@ class Nursery {
     const Stand& stand_;
     const SiteAt &site_, &dim_;
     CellBox core_, cells_, patch_cells_;
-    std::vector<Patch> patches_;
+    std::vector<StandPatch> patches_;
     std::vector<std::vector<std::size_t>> owners_;
     std::vector<WorldTime> since_;
 };

@@ -72,6 +72,7 @@ Value describe_world(const Context& context, const WorldSpec& spec, const std::s
                  .set("season", context.responses.link(folder + "/season.json"))
                  .set("plot", context.responses.link(folder + "/y80d270/plot.glb"))
                  .set("placements", context.responses.link(folder + "/y80d270/placements.csv"))
+                 .set("tileset", context.responses.link(folder + "/web/y80d270/tileset.json"))
                  .set("limits", context.responses.link(folder + "/y80d270/limits.json"))
                  .set("schema", context.responses.link("/v1/worlds/schema")));
 }

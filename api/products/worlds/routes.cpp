@@ -12,6 +12,7 @@
 #include "api/products/worlds/placements.h"
 #include "api/products/worlds/plots.h"
 #include "api/products/worlds/seasons.h"
+#include "api/products/worlds/tiles.h"
 #include "api/products/worlds/worlds.h"
 #include "core/params/schema.h"
 
@@ -168,6 +169,40 @@ constexpr Route routes[] = {
      .query_schema = limits_query_schema,
      .plan = plan_limits,
      .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{profile}/{time}/tileset.json",
+     .id = "get_tileset",
+     .summary = "The whole world of a day as 3D Tiles: ground, trees, floor and fungi.",
+     .media_type = json,
+     .response_schema = "world_tileset",
+     .plan = plan_tileset,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{profile}/{layertime}/{layer}/tileset.json",
+     .id = "get_layer_tileset",
+     .summary = "One layer of it as 3D Tiles.",
+     .media_type = json,
+     .response_schema = "world_tileset",
+     .plan = plan_layer_tileset,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{profile}/{layertime}/{layer}/{level}/{x}/{y}.subtree",
+     .id = "get_subtree",
+     .summary = "Which tiles below a tile there are, and their boxes.",
+     .media_type = "application/octet-stream",
+     .plan = plan_subtree,
+     .has_version_in_path = true},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/worlds/{world}/{profile}/{layertime}/{layer}/{level}/{x}/{y}.glb",
+     .id = "get_tile",
+     .summary = "A tile: a layer of a square of the world.",
+     .media_type = "model/gltf-binary",
+     .plan = plan_tile,
+     .has_version_in_path = true},
 };
 
 void add_links(Value& links, const Atlas&) {
@@ -199,6 +234,7 @@ void add_parameters(Value& parameters, const Route& route, const Atlas& atlas) {
             object({{"type", "string"},
                     {"enum", map_names(pattern.ends_with(".r16") ? MapFile::r16 : MapFile::png)}}),
             "height"));
+    add_tile_parameters(parameters, pattern);
 }
 
 void add_schemas(Value& schemas, const Atlas&) {
@@ -229,6 +265,7 @@ void add_schemas(Value& schemas, const Atlas&) {
         .set("world_plot", plot_schema())
         .set("world_placements", placement_schema())
         .set("world_limits", limits_schema())
+        .set("world_tileset", tileset_schema())
         .set("weather", objects({{"world", text},
                                  {"year", whole},
                                  {"days", objects({{"rain_mm", days},

@@ -19,7 +19,6 @@
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/world/floor_image.h"
-#include "core/world/leaf_stamp.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
@@ -36,24 +35,6 @@ constexpr std::uint64_t most_of_trees = 200'000, most_of_bodies = 130'000, most_
 
 /// Side of the images of wood at LOD 0, texels.
 constexpr int wood_texture_side = 1024;
-
-std::vector<LeafLitter> litter_of(const PlotContent& content, const Atlas& atlas) {
-    if (content.kinds.size() > most_kinds)
-        throw InvalidInput("/kinds",
-                           "a stand has at most " + std::to_string(most_kinds) + " kinds of trees");
-    std::vector<LeafLitter> litter;
-    litter.reserve(content.kinds.size());
-    for (std::size_t i = 0; i < content.kinds.size(); ++i) {
-        const std::string path = "/kinds/" + std::to_string(i);
-        const TreePreset* const tree = atlas.find_tree(content.kinds[i]);
-        if (tree == nullptr)
-            throw InvalidInput(path, "there is no tree '" + content.kinds[i] + "'");
-        const LeafPreset* const leaf = atlas.find_leaf(params_of(*tree).look.leaf.id.string());
-        if (leaf == nullptr) throw InvalidInput(path, "its leaf does not exist");
-        litter.push_back({leaf->shape, leaf->palette});
-    }
-    return litter;
-}
 
 void check(const PlotContent& content, const PlotOptions& options) {
     std::vector<Problem> problems;
@@ -435,7 +416,25 @@ std::vector<TreeFoot> feet_of(const PlotContent& content) {
     return feet;
 }
 
-CoverField cover_of(const PlotContent& content, const Atlas& atlas) {
+std::vector<LeafLitter> litter_of(const PlotContent& content, const Atlas& atlas) {
+    if (content.kinds.size() > most_kinds)
+        throw InvalidInput("/kinds",
+                           "a stand has at most " + std::to_string(most_kinds) + " kinds of trees");
+    std::vector<LeafLitter> litter;
+    litter.reserve(content.kinds.size());
+    for (std::size_t i = 0; i < content.kinds.size(); ++i) {
+        const std::string path = "/kinds/" + std::to_string(i);
+        const TreePreset* const tree = atlas.find_tree(content.kinds[i]);
+        if (tree == nullptr)
+            throw InvalidInput(path, "there is no tree '" + content.kinds[i] + "'");
+        const LeafPreset* const leaf = atlas.find_leaf(params_of(*tree).look.leaf.id.string());
+        if (leaf == nullptr) throw InvalidInput(path, "its leaf does not exist");
+        litter.push_back({leaf->shape, leaf->palette});
+    }
+    return litter;
+}
+
+CoverField cover_of(const PlotContent& content, const Atlas& atlas, double step) {
     const std::vector<LeafLitter> litter = litter_of(content, atlas);
     CoverConditions at;
     at.acidity = content.acidity;
@@ -451,7 +450,7 @@ CoverField cover_of(const PlotContent& content, const Atlas& atlas) {
     }
     const SineCosine wind = sine_cosine(content.wind_to);
     const Ground& ground = *content.ground;
-    return cover_field(box_of(content), floor_margin, [&](double x, double y) {
+    const auto at_place = [&](double x, double y) {
         const Coordinate column = coordinate_at(ground.grid, x),
                          row = coordinate_at(ground.grid, y);
         const Place place = place_at(ground, column, row);
@@ -462,7 +461,8 @@ CoverField cover_of(const PlotContent& content, const Atlas& atlas) {
         at.stream = stream_at(ground, column, row);
         at.fall = litterfall(sources, x, y, wind.cosine, wind.sine);
         return cover_of(at);
-    });
+    };
+    return cover_field(box_of(content), floor_margin, at_place, step);
 }
 
 LeafState leaves_on(int day) {

@@ -14,6 +14,7 @@
 #include "core/plant/tree_spec.h"
 #include "core/world/cover.h"
 #include "core/world/ground.h"
+#include "core/world/leaf_stamp.h"
 #include "core/world/plot_ground.h"
 #include "core/world/records.h"
 
@@ -91,11 +92,18 @@ inline constexpr std::size_t most_plot_nodes = 400, most_plot_mushrooms = 16;
 /// Returns the feet of all trees near a plot, in the order in which they are given.
 [[nodiscard]] std::vector<TreeFoot> feet_of(const PlotContent& content);
 
+/// Returns the leaves that fall in a wood, by kind of tree.
+///
+/// throws  InvalidInput (path "/kinds") for an unknown tree, and for too many of them
+[[nodiscard]] std::vector<LeafLitter> litter_of(const PlotContent& content, const Atlas& atlas);
+
 /// Returns the cover of a plot and of the ground near it.
 ///
 /// atlas   has the kinds of the stand
-/// throws  InvalidInput (path "/kinds") for an unknown tree
-[[nodiscard]] CoverField cover_of(const PlotContent& content, const Atlas& atlas);
+/// step    of the field, metres
+/// throws  as litter_of()
+[[nodiscard]] CoverField cover_of(const PlotContent& content, const Atlas& atlas,
+                                  double step = CoverField::finest_step);
 
 /// Returns how far the leaves of broad-leaved trees have turned, 0..1 in sixteenths, and whether they have fallen.
 struct LeafState {

@@ -222,7 +222,8 @@ Mesh PlotLeaves::merged() const {
 }
 
 std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& frame,
-                                  const CoverField& cover, double per_m2, const Atlas& atlas) {
+                                  const CoverField& cover, double per_m2, const Atlas& atlas,
+                                  double rim) {
     constexpr std::size_t triangles = 12;
     constexpr int leaf_texture_side = 256;
     std::vector<PlotLeaves> leaves(content.kinds.size());
@@ -231,6 +232,7 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
         const LeafPreset& preset = leaf_of_preset(preset_of(content, kind, atlas), atlas);
         PlotLeaves& own = leaves[kind];
         own.leaf = params_of(preset);
+        own.preset = preset.id.string();
         own.leaf.autumn = 1.0;
         own.leaf.texture_size.value = leaf_texture_side;
         falls[kind] =
@@ -253,8 +255,6 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
                              face = random.uniform(), hue = random.uniform(),
                              age = random.uniform(), lift = random.uniform();
                 const double x = (column + along) * leaf_cell, y = (row + up) * leaf_cell;
-                // Leaves do not reach beyond the slab.
-                constexpr double rim = 0.06;
                 if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
                     y >= box.north - rim)
                     continue;

@@ -67,19 +67,24 @@ struct PlotLog {
 /// Leaves of one kind that lie on the floor.
 struct PlotLeaves {
     LeafParams leaf;
-    Mesh one;  ///< of which all are copies
+    std::string preset;  ///< id of that of the leaf
+    Mesh one;            ///< of which all are copies
     std::vector<GlbTransform> places;
 
     /// Returns all of them as one mesh.
     [[nodiscard]] Mesh merged() const;
 };
 
+/// Distance from the border of a slab within which no leaf lies, so that none reaches beyond it, metres.
+inline constexpr double rim_of_leaves = 0.06;
+
 /// Returns the leaves that lie on a plot, by kind of tree.
 ///
 /// per_m2  where leaves cover the ground
+/// rim     distance from the border within which none lies, metres
 [[nodiscard]] std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& frame,
                                                 const CoverField& cover, double per_m2,
-                                                const Atlas& atlas);
+                                                const Atlas& atlas, double rim = rim_of_leaves);
 
 /// Returns the blades of grass of a plot as one mesh with tints; empty where none grows.
 ///

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -528,6 +529,50 @@ TEST(Glb, InvalidScenesAreRefused) {
 
 TEST(Glb, AnEmptyMeshIsRefused) {
     EXPECT_THROW((void)glb(Mesh{}, parts_of("nothing")), GenerationError);
+}
+
+/// A scene of two meshes, the second of which is a file of its own.
+GlbScene partly_linked(const Mesh& here, const Mesh& elsewhere) {
+    GlbScene scene;
+    scene.materials.push_back({.name = "plain"});
+    scene.meshes.push_back({"here", {{&here, 0, {}}}});
+    scene.meshes.push_back({"elsewhere", {{&elsewhere, 0, {}}}, GlbRole::body, "../shape.bin"});
+    scene.nodes.push_back({.name = "here", .mesh = 0});
+    scene.nodes.push_back({.name = "elsewhere", .mesh = 1});
+    return scene;
+}
+
+TEST(Glb, LinkedGeometryIsABufferOfItsOwn) {
+    const Mesh here = mesh_of(order_of("amanita_muscaria", 0.6, 3, 1)),
+               elsewhere = mesh_of(order_of("boletus_edulis", 0.6, 2, 1));
+    const GlbScene scene = partly_linked(here, elsewhere);
+    const Value json = json_chunk(joined(glb(scene)));
+    const Value::Array& buffers = json.find("buffers")->items();
+    ASSERT_EQ(buffers.size(), 2U);
+    EXPECT_EQ(buffers[1].find("uri")->as_string(), "../shape.bin");
+    GlbScene alone;
+    alone.materials.push_back({.name = "plain"});
+    alone.meshes.push_back({"elsewhere", {{&elsewhere, 0, {}}}});
+    const Bytes geometry = joined(geometry_bytes(alone));
+    EXPECT_EQ(buffers[1].find("byteLength")->as_number(), geometry.size());
+    // Its views are those of the second buffer, from its beginning.
+    std::set<double> starts;
+    for (const Value& view : json.find("bufferViews")->items())
+        if (view.find("buffer")->as_number() == 1.0)
+            starts.insert(view.find("byteOffset")->as_number());
+    EXPECT_EQ(*starts.begin(), 0.0);
+    EXPECT_EQ(starts.size(), 3U) << "positions, normals and indices";
+}
+
+TEST(Glb, GeometryThatCannotBeAFileOfItsOwnIsRefused) {
+    const Mesh mesh = mesh_of(order_of("amanita_muscaria", 0.6, 3, 1));
+    GlbScene scene = partly_linked(mesh, mesh);
+    scene.geometry = GlbGeometry::quantized;
+    EXPECT_THROW(static_cast<void>(glb(scene)), GenerationError);
+    EXPECT_THROW(static_cast<void>(geometry_bytes(scene)), GenerationError);
+    scene = partly_linked(mesh, mesh);
+    scene.meshes.front().geometry_uri = "first.bin";
+    EXPECT_THROW(static_cast<void>(glb(scene)), GenerationError) << "without data of its own";
 }
 
 }  // namespace

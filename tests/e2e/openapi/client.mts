@@ -114,6 +114,7 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/v1/mushrooms/schema", {}), client.GET("/v1/mushrooms/schema", {}));
     const mix = { params: { path: { mix: `${id}:0.7,${other}:0.3` }, query: { ...small, age: 0.5 } } };
     await both(client.HEAD("/v1/mushrooms/{mix}.glb", mix), client.GET("/v1/mushrooms/{mix}.glb", { ...mix, ...binary }));
+    await both(client.HEAD("/v1/mushrooms/{mix}.bin", mix), client.GET("/v1/mushrooms/{mix}.bin", { ...mix, ...binary }));
     await client.HEAD("/v1/mushrooms/{mix}.json", mix);
     const { data: described } = await client.GET("/v1/mushrooms/{mix}.json", mix);
     const age: number = described?.effective.age ?? Number.NaN;
@@ -193,6 +194,7 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/v1/trees/schema", {}), client.GET("/v1/trees/schema", {}));
     const herb = { params: { path: { preset: "herb" }, query: small } };
     await both(client.HEAD("/v1/trees/{preset}.glb", herb), client.GET("/v1/trees/{preset}.glb", { ...herb, ...binary }));
+    await both(client.HEAD("/v1/trees/{preset}.bin", herb), client.GET("/v1/trees/{preset}.bin", { ...herb, ...binary }));
     await client.HEAD("/v1/trees/{preset}.json", herb);
     const { data: plant } = await client.GET("/v1/trees/{preset}.json", herb);
     const rows: number[][] | undefined = plant?.matrix;
@@ -241,6 +243,16 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await client.HEAD("/v1/worlds/{world}/{time}/placements.json", placed);
     const { data: list } = await client.GET("/v1/worlds/{world}/{time}/placements.json", placed);
     if (list?.count !== list?.placements.length) throw new Error("the rows are not counted");
+    const tiled = { params: { path: { world: "meadow,extent=256", profile: "web", time: "y80d270" } } } as const;
+    await client.HEAD("/v1/worlds/{world}/{profile}/{time}/tileset.json", tiled);
+    const { data: tileset } = await client.GET("/v1/worlds/{world}/{profile}/{time}/tileset.json", tiled);
+    if (!tileset?.geometricError) throw new Error("the tileset has no error");
+    const layer = { params: { path: { world: "meadow,extent=256", profile: "core", layertime: "y80m10", layer: "floor" } } } as const;
+    await client.HEAD("/v1/worlds/{world}/{profile}/{layertime}/{layer}/tileset.json", layer);
+    await client.GET("/v1/worlds/{world}/{profile}/{layertime}/{layer}/tileset.json", layer);
+    const tile = { params: { path: { ...layer.params.path, level: 3, x: 4, y: 4 } } } as const;
+    await both(client.HEAD("/v1/worlds/{world}/{profile}/{layertime}/{layer}/{level}/{x}/{y}.subtree", tile), client.GET("/v1/worlds/{world}/{profile}/{layertime}/{layer}/{level}/{x}/{y}.subtree", { ...tile, ...binary }));
+    await both(client.HEAD("/v1/worlds/{world}/{profile}/{layertime}/{layer}/{level}/{x}/{y}.glb", tile), client.GET("/v1/worlds/{world}/{profile}/{layertime}/{layer}/{level}/{x}/{y}.glb", { ...tile, ...binary }));
     const spot = { params: { path: { world: "meadow,extent=256", time: "y80d270" }, query: { x: 3, y: -4.5 } } };
     await client.HEAD("/v1/worlds/{world}/{time}/limits.json", spot);
     const { data: limits } = await client.GET("/v1/worlds/{world}/{time}/limits.json", spot);

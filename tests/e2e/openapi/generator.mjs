@@ -114,12 +114,16 @@ export class Generator {
         }
         if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
-        if (name === "world" && /season|plot|placements|limits|maps/.test(path)) return "meadow,extent=256"; // others take seconds
+        if (name === "world" && /season|plot|placements|limits|maps|profile/.test(path)) return "meadow,extent=256"; // others take seconds
         if (name === "world") {
             const texts = [",extent=256", ",seed=7,extent=256", ",climate.rain=600,climate.latitude_deg=-40"];
             return dice.pick(lists.worlds) + dice.pick(texts);
         }
         if (name === "time") return dice.pick(["y80d270", "y0d1", "y200d365"]);
+        if (name === "layertime") return (this.layer = dice.pick(["ground", "trees", "floor", "fungi"])) === "fungi" ? "y80d270" : "y80m10";
+        if (name === "layer") return this.layer;
+        if (name === "level") return dice.pick(["0", "3"]); // of which there are subtrees
+        if (name === "x" || name === "y") return "0";
         if (name === "type") return dice.pick(lists.types);
         if (name === "photo") return dice.pick(lists.photos);
         if (name === "lod") return dice.pick(["0", "3"]);

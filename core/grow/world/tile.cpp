@@ -1,0 +1,497 @@
+#include "core/grow/world/tile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <glm/common.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/grow/leaf.h"
+#include "core/grow/mushroom.h"
+#include "core/grow/names.h"
+#include "core/grow/painting.h"
+#include "core/grow/tree.h"
+#include "core/grow/wood.h"
+#include "core/grow/world/parts.h"
+#include "core/grow/world/plot_of_world.h"
+#include "core/grow/world/plot_parts.h"
+#include "core/grow/world/plot_places.h"
+#include "core/grow/world/tile_grass.h"
+#include "core/grow/world/tile_ground.h"
+#include "core/individual/resolve.h"
+#include "core/math/direction.h"
+#include "core/world/canopy_light.h"
+#include "core/world/season.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Individuals that show the fruit bodies of a species: the middles of so many parts of a life, and seeds.
+constexpr int parts_of_life = 8;
+constexpr std::uint64_t seeds_of_body = 2;
+
+/// Sides of the images at LOD 0, texels: of mushrooms, and of wood.
+constexpr int body_texture_side = 512, wood_texture_side = 512;
+
+/// Leaves that are meshes where leaves cover the ground, per m².
+constexpr double leaves_per_m2 = 20.0;
+
+/// How far beyond a tile the feet of trees raise ground on which something of it stands, metres: a trunk may lie
+/// half beyond its tile.
+constexpr double beside_trunks = 24.0;
+
+/// Returns the level of detail of trees on tiles of a size: two common ones, then those that are for worlds.
+int lod_of_trees(double side) {
+    if (side <= finest_tile) return 2;
+    if (side <= 2.0 * finest_tile) return 3;
+    int lod = first_far_lod;
+    for (double far = 4.0 * finest_tile; far < side; far *= 2.0) ++lod;
+    return lod;
+}
+
+/// Returns the level of detail of mushrooms on tiles of a size.
+int lod_of_bodies(double side) {
+    return side <= finest_tile ? 1 : side <= 2.0 * finest_tile ? 2 : 3;
+}
+
+WorldBox grown(const WorldBox& box, double by) {
+    return {box.west - by, box.south - by, box.east + by, box.north + by};
+}
+
+/// Returns the middle of a dead trunk: of a log along it, of a snag its foot.
+WorldPoint middle_of(const DeadWood& wood, WorldTime time) {
+    if (wood.stands_at(time)) return wood.at;
+    const SineCosine way = sine_cosine(wood.direction);
+    return point_at(metres(wood.at.x) + 0.5 * wood.length * way.cosine,
+                    metres(wood.at.y) + 0.5 * wood.length * way.sine);
+}
+
+/// The scene of a tile with everything that it refers to.
+class TileScene {
+  public:
+    TileScene(const std::shared_ptr<const World>& world, const TileRequest& request,
+              const Atlas& atlas, const TileLinks& links, const Extras& extras,
+              const ExecutionContext& execution)
+        : world_(*world),
+          request_(request),
+          box_(request.tiling.box(request.tile)),
+          atlas_(atlas),
+          links_(links),
+          extras_(extras),
+          execution_(execution) {
+        const double side = request.tiling.side(request.tile.level);
+        const PlotPlace place{0.5 * (box_.west + box_.east), 0.5 * (box_.south + box_.north), side};
+        content_ = content_of(world_, place, request.time);
+        wide_ = content_;
+        wide_.size = side + 2.0 * beside_trunks;
+        scene_.stands_on_ground = false;
+        scene_.nodes.push_back({.name = "tile"});
+    }
+
+    Grown grow() {
+        if (has_content(request_.layer, content_.size)) {
+            execution_.observer(Step::build);
+            read_surroundings();
+            const std::vector<TreeFoot> feet =
+                raises_ground() ? feet_of(wide_) : std::vector<TreeFoot>();
+            const FloorHeights floor(*content_.ground, content_.seed, content_.micro, feet);
+            const PlotFrame frame(content_, floor);
+            scene_.nodes[0].translation = frame.origin();
+            add_layer(frame, floor);
+        } else {
+            const FloorHeights floor(*content_.ground, content_.seed, content_.micro, {});
+            scene_.nodes[0].translation = PlotFrame(content_, floor).origin();
+        }
+        execution_.observer(Step::pack);
+        throw_if_cancelled(execution_);
+        const Bounds box = is_empty_ ? Bounds{} : bounds_;
+        scene_.extras_json = dump(extras_value(extras_, Value::object(), box, triangles_, {}, {}));
+        Grown grown;
+        grown.vertices = vertices_;
+        grown.triangles = triangles_;
+        grown.glb = extras_.write(scene_, execution_.parallel);
+        return grown;
+    }
+
+  private:
+    const World& world_;
+    const TileRequest& request_;
+    WorldBox box_;
+    const Atlas& atlas_;
+    const TileLinks& links_;
+    const Extras& extras_;
+    const ExecutionContext& execution_;
+    Block around_;
+    std::vector<FruitBody> bodies_;
+    std::optional<CanopyLight> canopy_;
+    PlotContent content_, wide_;  ///< the tile, and the same with what its trunks lie on
+    GlbScene scene_;
+    std::deque<Mesh> meshes_;
+    std::deque<std::shared_ptr<const TreeMeshes>> trees_;
+    std::deque<EmbeddedImages> images_;
+    std::map<std::string, std::size_t> material_of_;
+    std::uint64_t vertices_ = 0, triangles_ = 0;
+    Bounds bounds_{glm::vec3(1e9F), glm::vec3(-1e9F)};
+    bool is_empty_ = true;
+
+    [[nodiscard]] bool is_linked() const { return request_.profile == TileProfile::web; }
+    [[nodiscard]] Textures textures() const {
+        return is_linked() ? Textures::linked : Textures::embedded;
+    }
+    [[nodiscard]] bool shows_cover() const {
+        return request_.layer == PlotLayer::ground || request_.layer == PlotLayer::floor;
+    }
+    /// Returns whether the vertices of the ground are near enough to each other for the feet of trees.
+    [[nodiscard]] bool raises_ground() const {
+        return request_.layer != PlotLayer::ground || content_.size <= 4.0 * finest_tile;
+    }
+
+    /// Reads what stands and lies on the tile and round it.
+    void read_surroundings() {
+        if (content_.size > coarsest_of_trees) return;
+        around_ = blocks_round(world_, box_, execution_);
+        const WorldTime time = request_.time;
+        std::erase_if(around_.trees, [&](const StandTree& tree) { return !tree.lives_at(time); });
+        std::erase_if(around_.dead, [&](const DeadWood& wood) {
+            return !wood.stands_at(time) && !wood.lies_at(time);
+        });
+        for (PlotContent* content : {&content_, &wide_}) {
+            content->trees = around_.trees;
+            content->dead_wood = around_.dead;
+        }
+        if (!shows_cover()) return;
+        canopy_.emplace(
+            crowns_in(world_, around_.trees, grown(box_, plot_margin + shade_reach), time));
+        content_.light = [this](double x, double y) {
+            const WorldPoint at = point_at(x, y);
+            return world_.site_at(at).light * canopy_->at(x, y, world_.place_at(at).height, 1.0);
+        };
+    }
+
+    void add_layer(const PlotFrame& frame, const FloorHeights& floor) {
+        switch (request_.layer) {
+            case PlotLayer::ground:
+                add_ground(floor, frame);
+                break;
+            case PlotLayer::trees:
+                add_trees(frame);
+                break;
+            case PlotLayer::floor:
+                add_floor(frame, floor);
+                break;
+            case PlotLayer::fungi:
+                add_fungi(frame, floor);
+                break;
+        }
+    }
+
+    void include(const Bounds& box, const GlbTransform& place) {
+        is_empty_ = false;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 at(corner & 1 ? box.max.x : box.min.x,
+                                corner & 2 ? box.max.y : box.min.y,
+                                corner & 4 ? box.max.z : box.min.z);
+            const glm::vec3 in_tile(place.translation + rotated(place.rotation, place.scale * at));
+            bounds_.min = glm::min(bounds_.min, in_tile);
+            bounds_.max = glm::max(bounds_.max, in_tile);
+        }
+    }
+
+    std::size_t add_node(GlbNode node) {
+        scene_.nodes[0].children.push_back(scene_.nodes.size());
+        scene_.nodes.push_back(std::move(node));
+        return scene_.nodes.size() - 1;
+    }
+
+    /// Returns the material of a name, made if there is none yet.
+    std::size_t material(const std::string& name, const std::function<void(GlbMaterial&)>& look,
+                         const std::function<ImageUrls()>& urls,
+                         const std::function<std::shared_ptr<const ImageSet>(ImageFormat)>& paint) {
+        const auto [found, is_new] = material_of_.try_emplace(name, scene_.materials.size());
+        if (!is_new) return found->second;
+        scene_.materials.push_back({.name = name});
+        if (look) look(scene_.materials.back());
+        if (paint)
+            images_.push_back(attach_images(scene_.materials.back(), textures(), {},
+                                            is_linked() ? urls() : ImageUrls(), execution_, paint));
+        return found->second;
+    }
+
+    /// Adds a mesh at several places: as instances, or as nodes.
+    ///
+    /// address  of its geometry, for one that is a file of its own
+    /// ids      of what stands at the places; empty for what has none
+    void add_places(const std::string& name, std::vector<GlbPrimitive> primitives,
+                    const std::string& address, const std::vector<GlbTransform>& places,
+                    const std::vector<std::uint64_t>& ids, GlbRole role) {
+        std::uint64_t vertices = 0, triangles = 0;
+        for (const GlbPrimitive& primitive : primitives) {
+            vertices += primitive.mesh->positions.size();
+            triangles += primitive.mesh->triangles();
+            const Bounds box = bounds(*primitive.mesh);
+            for (const GlbTransform& place : places) include(box, place);
+        }
+        vertices_ += vertices;
+        triangles_ += triangles * places.size();
+        const std::size_t mesh = scene_.meshes.size();
+        scene_.meshes.push_back(
+            {name, std::move(primitives), role, is_linked() ? address : std::string()});
+        if (is_linked()) {
+            GlbNode node{.name = name, .mesh = mesh, .instances = places};
+            if (!ids.empty()) {
+                Value list = Value::array();
+                for (const std::uint64_t id : ids) list.push(id_text(id));
+                node.extras_json = dump(Value::object().set("ids", std::move(list)));
+            }
+            add_node(std::move(node));
+            return;
+        }
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            GlbNode node{.name = name + '_' + std::to_string(i + 1),
+                         .mesh = mesh,
+                         .translation = places[i].translation,
+                         .rotation = places[i].rotation,
+                         .scale = places[i].scale};
+            if (!ids.empty()) node.extras_json = dump(Value::object().set("id", id_text(ids[i])));
+            add_node(std::move(node));
+        }
+    }
+
+    /// Adds a mesh that is at its place.
+    void add_single(Mesh mesh, const std::string& name, std::size_t material, GlbRole role,
+                    std::optional<std::uint64_t> id = {}) {
+        meshes_.push_back(std::move(mesh));
+        const Mesh& own = meshes_.back();
+        include(bounds(own), {});
+        vertices_ += own.positions.size();
+        triangles_ += own.triangles();
+        GlbNode node{.name = name, .mesh = scene_.meshes.size()};
+        if (id) node.extras_json = dump(Value::object().set("id", id_text(*id)));
+        add_node(std::move(node));
+        scene_.meshes.push_back({name, {{&own, material, {}}}, role});
+    }
+
+    void add_ground(const FloorHeights& floor, const PlotFrame& frame) {
+        scene_.materials.push_back({.name = "ground"});
+        images_.push_back(attach_images(scene_.materials.back(), Textures::embedded, {}, {},
+                                        execution_, [&](ImageFormat format) {
+                                            const RawImages painted = tile_images(
+                                                world_, content_, atlas_, execution_.parallel);
+                                            throw_if_cancelled(execution_);
+                                            return std::make_shared<const ImageSet>(
+                                                encoded(painted, format, execution_.parallel));
+                                        }));
+        add_single(tile_slab(world_, content_, floor, frame.height()), "ground",
+                   scene_.materials.size() - 1, GlbRole::body);
+    }
+
+    void add_trees(const PlotFrame& frame) {
+        const int lod = lod_of_trees(content_.size);
+        using Key = std::pair<std::size_t, std::uint64_t>;
+        std::map<Key, std::vector<const StandTree*>> groups;
+        for (const StandTree& tree : around_.trees)
+            if (contains(box_, tree.at)) groups[{tree.kind, shape_number(tree)}].push_back(&tree);
+        for (const auto& [key, group] : groups) {
+            throw_if_cancelled(execution_);
+            PlotTrees::Shape shape =
+                tree_shape(content_, key.first, key.second, lod, atlas_, execution_);
+            shape.spec.params.textures = textures();
+            std::vector<GlbTransform> places;
+            std::vector<std::uint64_t> ids;
+            for (const StandTree* tree : group) {
+                places.push_back(place_of(*tree, request_.time, shape.size, frame));
+                ids.push_back(tree->id);
+            }
+            add_places(level_name(shape.name, lod), primitives_of(shape),
+                       is_linked() ? links_.tree(shape.spec) : std::string(), places, ids,
+                       GlbRole::body);
+        }
+    }
+
+    std::vector<GlbPrimitive> primitives_of(const PlotTrees::Shape& shape) {
+        trees_.push_back(shape.meshes);
+        const TreeMeshes& meshes = *trees_.back();
+        const TreeParams& params = shape.spec.params;
+        const std::size_t bark = material(
+            bark_name(shape.spec.preset, paint_of(params), textures()),
+            [](GlbMaterial& own) { own.repeats_u = true; }, [&] { return links_.bark(shape.spec); },
+            [&](ImageFormat format) {
+                return painted_images(paint_of(params), execution_, format);
+            });
+        std::vector<GlbPrimitive> primitives{{&meshes.bark, bark, {}}};
+        if (meshes.leaves.positions.empty()) return primitives;
+        const std::string leaf = params.look.leaf.id.string();
+        const LeafPaint paint = paint_of(leaf_of(params, atlas_));
+        const std::size_t leaves = leaf_material(leaf, leaf, paint);
+        primitives.push_back({&meshes.leaves, leaves, {}});
+        return primitives;
+    }
+
+    std::size_t leaf_material(const std::string& name, const std::string& leaf,
+                              const LeafPaint& paint) {
+        return material(
+            leaf_material_name(name, paint, textures()), nullptr,
+            [&] { return links_.leaves(leaf, paint); },
+            [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+    }
+
+    void add_floor(const PlotFrame& frame, const FloorHeights& floor) {
+        const CoverField cover = cover_of(content_, atlas_);
+        throw_if_cancelled(execution_);
+        if (content_.size > 2.0 * finest_tile)
+            add_logs(cover, floor);
+        else if (content_.size > finest_tile)
+            add_grass(frame, cover);
+        else
+            add_litter(frame, cover);
+    }
+
+    void add_logs(const CoverField& cover, const FloorHeights& floor) {
+        // Trunks whose middle lies on the tile, whole.
+        std::vector<DeadWood> own;
+        for (const DeadWood& wood : around_.dead)
+            if (contains(box_, middle_of(wood, request_.time))) own.push_back(wood);
+        PlotContent content = wide_;
+        content.dead_wood = own;
+        const PlotFrame frame(content, floor);
+        for (PlotLog& log : logs_of(content, frame, cover, atlas_)) {
+            const WoodPaint paint{log.wood, wood_side({wood_texture_side}, 0)};
+            const std::size_t wood = material(
+                wood_name(paint, textures()), [](GlbMaterial& look) { look.repeats_u = true; },
+                [&] { return links_.wood(paint); },
+                [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+            add_single(std::move(log.mesh), log.lies ? "log" : "snag", wood, GlbRole::body, log.id);
+        }
+    }
+
+    void add_grass(const PlotFrame& frame, const CoverField& cover) {
+        const std::vector<std::vector<GlbTransform>> places = tufts_on(content_, frame, cover);
+        for (std::size_t shape = 0; shape < places.size(); ++shape) {
+            if (places[shape].empty()) continue;
+            const std::size_t blades = material("grass", nullptr, nullptr, nullptr);
+            meshes_.push_back(tuft_mesh(shape));
+            add_repeated("grass_" + std::to_string(shape + 1), {}, meshes_.back(), blades,
+                         places[shape]);
+        }
+    }
+
+    void add_litter(const PlotFrame& frame, const CoverField& cover) {
+        for (PlotLeaves& own : leaves_of(content_, frame, cover, leaves_per_m2, atlas_, 0.0)) {
+            const std::size_t leaves = leaf_material("fallen", own.preset, paint_of(own.leaf));
+            meshes_.push_back(std::move(own.one));
+            add_repeated("litter_" + own.preset, own.leaf, meshes_.back(), leaves, own.places);
+        }
+    }
+
+    /// Adds a small mesh that occurs often: as instances, or as one mesh of all.
+    void add_repeated(const std::string& name, const LeafParams& leaf, const Mesh& one,
+                      std::size_t material, const std::vector<GlbTransform>& places) {
+        if (is_linked()) {
+            add_places(name, {{&one, material, {}}}, {}, places, {}, GlbRole::foliage);
+            return;
+        }
+        PlotLeaves all{leaf, {}, one, places};
+        Mesh merged = all.merged();
+        if (!one.tints.empty()) {
+            merged.tints.clear();
+            for (std::size_t i = 0; i < places.size(); ++i)
+                merged.tints.insert(merged.tints.end(), one.tints.begin(), one.tints.end());
+        }
+        add_single(std::move(merged), name, material, GlbRole::foliage);
+    }
+
+    void add_fungi(const PlotFrame& frame, const FloorHeights& floor) {
+        const PlotFrame of_trunks(wide_, floor);
+        BearingTrunks trunks(wide_, of_trunks);
+        using Key = std::tuple<std::size_t, int, std::uint64_t>;
+        std::map<Key, std::vector<const FruitBody*>> groups;
+        bodies_ = bodies_on_tile();
+        for (const FruitBody& body : bodies_) {
+            const int part = std::min(static_cast<int>(age_at(body, request_.time) * parts_of_life),
+                                      parts_of_life - 1);
+            groups[{body.species, part, (body.id >> 32U) % seeds_of_body}].push_back(&body);
+        }
+        for (const auto& [key, group] : groups) {
+            throw_if_cancelled(execution_);
+            add_bodies(key, group, frame, trunks);
+        }
+    }
+
+    /// Returns the fruit bodies that stand on the tile, by their ids.
+    std::vector<FruitBody> bodies_on_tile() {
+        // A tile with fungi lies within one block, whose season all of its tiles share.
+        const CellIndex block = block_at(content_.centre);
+        const int year = static_cast<int>(request_.time / ticks_of_year);
+        const auto season = season_of_world(world_, block, year, execution_);
+        std::vector<FruitBody> out;
+        for (const FruitBody& body : season->bodies)
+            if (body.stands_at(request_.time) && contains(box_, body.at)) out.push_back(body);
+        return out;
+    }
+
+    void add_bodies(const std::tuple<std::size_t, int, std::uint64_t>& key,
+                    const std::vector<const FruitBody*>& group, const PlotFrame& frame,
+                    BearingTrunks& trunks) {
+        const auto& [species, part, seed] = key;
+        const std::string& id = content_.species[species];
+        const AtlasEntry* const entry = atlas_.find(id);
+        if (entry == nullptr)
+            throw InvalidInput("/species/" + std::to_string(species),
+                               "there is no species '" + id + "'");
+        const bool is_lateral = entry->species.is_lateral();
+        MushroomSpec spec;
+        spec.mix = {{id, 1000}};
+        spec.params.seed = static_cast<std::uint32_t>(1 + seed);
+        spec.params.age = (part + 0.5) / parts_of_life;
+        spec.params.lod = lod_of_bodies(content_.size);
+        spec.params.texture_size.value = body_texture_side;
+        spec.params.textures = textures();
+        spec.params.share = ImageShare::species;
+        if (is_lateral) spec.params.substrate = Substrate::none;
+        const Individual individual = resolve(spec, atlas_, execution_.caches.morphs);
+        meshes_.push_back(mushroom_mesh(spec, individual));
+        const Mesh& mesh = meshes_.back();
+        const Bounds box = bounds(mesh);
+        const glm::vec3 size = box.max - box.min;
+        if (content_.size > 2.0 * finest_tile &&
+            static_cast<double>(std::max({size.x, size.y, size.z})) < least_body_from_afar) {
+            meshes_.pop_back();
+            return;
+        }
+        const std::size_t skin = material(
+            skin_name(spec), [&](GlbMaterial& own) { own.look = look_of(individual.model); },
+            [&] { return links_.skin(spec); },
+            [&](ImageFormat format) {
+                return painted_images(paint_spec_of(spec, atlas_, execution_.caches), execution_,
+                                      format);
+            });
+        std::vector<GlbTransform> places;
+        std::vector<std::uint64_t> ids;
+        for (const FruitBody* body : group) {
+            places.push_back(place_of(*body, frame, is_lateral, trunks));
+            ids.push_back(body->id);
+        }
+        add_places(level_name(product_name(spec), spec.params.lod), {{&mesh, skin, {}}},
+                   is_linked() ? links_.mushroom(spec) : std::string(), places, ids, GlbRole::body);
+    }
+};
+
+}  // namespace
+
+Grown grow_tile(const std::shared_ptr<const World>& world, const TileRequest& request,
+                const Atlas& atlas, const TileLinks& links, const Extras& extras,
+                const ExecutionContext& execution) {
+    if (!request.tiling.has(request.tile))
+        throw InvalidInput("/tile", "the world has no such tile");
+    return TileScene(world, request, atlas, links, extras, execution).grow();
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,95 @@
+#include "core/grow/world/tile_grass.h"
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/world/cell_random.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Side of the cells in which tufts stand, metres, and tufts of a cell where grass covers it.
+constexpr double cell = 0.5;
+constexpr int tufts_of_cell = 3;
+
+constexpr int blades_of_tuft = 6;
+constexpr double height_of_tuft = 0.13;
+
+constexpr glm::vec3 green_dark(0.035F, 0.075F, 0.012F), green_pale(0.15F, 0.22F, 0.04F),
+    dry(0.32F, 0.26F, 0.12F);
+
+/// Adds a blade: a bent strip with a face on each side, so that it is closed.
+void add_blade(Mesh& mesh, Random& random) {
+    const double angle = 2.0 * pi * random.uniform(), out = random.uniform(),
+                 size = random.uniform(), hue = random.uniform(), bend = random.uniform();
+    const SineCosine to = sine_cosine(angle);
+    const glm::dvec3 outwards(to.cosine, 0.0, to.sine), across(-to.sine, 0.0, to.cosine),
+        up(0.0, 1.0, 0.0);
+    const double length = height_of_tuft * (0.6 + 0.6 * size), width = 0.0035 + 0.003 * size;
+    const glm::dvec3 root = 0.03 * out * outwards - 0.012 * up;
+    const glm::dvec3 middle = root + length * ((0.12 + 0.2 * out) * outwards + 0.55 * up);
+    const glm::dvec3 tip =
+        middle + length * ((0.15 + 0.45 * bend) * outwards + 0.45 * (1.0 - bend) * up);
+    const glm::vec3 tint =
+        hue > 0.88 ? dry : glm::mix(green_dark, green_pale, static_cast<float>(hue));
+    for (const double face : {1.0, -1.0}) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        const glm::dvec3 normal = glm::normalize(face * (0.8 * outwards - 0.6 * up));
+        const auto add = [&](const glm::dvec3& at, float light) {
+            mesh.positions.emplace_back(at);
+            mesh.normals.emplace_back(normal);
+            mesh.tints.push_back(light * tint);
+        };
+        add(root - width * across, 0.55F);
+        add(root + width * across, 0.55F);
+        add(middle - 0.8 * width * across, 0.85F);
+        add(middle + 0.8 * width * across, 0.85F);
+        add(tip, 1.0F);
+        for (const auto& [a, b, c] : {std::array{0U, 1U, 2U}, {1U, 3U, 2U}, {2U, 3U, 4U}}) {
+            const std::uint32_t second = face > 0.0 ? b : c, third = face > 0.0 ? c : b;
+            mesh.indices.insert(mesh.indices.end(), {first + a, first + second, first + third});
+        }
+    }
+}
+
+}  // namespace
+
+Mesh tuft_mesh(std::size_t shape) {
+    Random random(static_cast<std::uint32_t>(1 + shape), purposes::plot_pieces, 3);
+    Mesh mesh;
+    for (int blade = 0; blade < blades_of_tuft; ++blade) add_blade(mesh, random);
+    return mesh;
+}
+
+std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content, const PlotFrame& frame,
+                                                const CoverField& cover) {
+    std::vector<std::vector<GlbTransform>> places(tuft_shapes);
+    const WorldBox& box = frame.box();
+    const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / cell)); };
+    // The sides of tiles are multiples of those of cells.
+    for (int row = cell_of(box.south); row < cell_of(box.north); ++row)
+        for (int column = cell_of(box.west); column < cell_of(box.east); ++column) {
+            Random random(content.seed, purposes::plot_pieces, 4, {column, row});
+            for (int k = 0; k < tufts_of_cell; ++k) {
+                const double along = random.uniform(), up = random.uniform(),
+                             chance = random.uniform(), size = random.uniform(),
+                             turn = random.uniform();
+                const std::size_t shape = random.bits() % tuft_shapes;
+                const double x = (column + along) * cell, y = (row + up) * cell;
+                const double grass = cover.at(x, y).grass;
+                if (chance >= grass * grass) continue;
+                const double scale = (0.4 + 1.2 * size) * (0.4 + 0.6 * grass);
+                const SineCosine half = sine_cosine(pi * turn);
+                places[shape].push_back(
+                    {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
+            }
+        }
+    return places;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,210 @@
+#include "core/grow/world/tile_ground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/grow/world/plot_of_world.h"
+#include "core/grow/world/tiling.h"
+#include "core/math/elementary.h"
+#include "core/math/noise.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/plant/leaf_colour.h"
+#include "core/plant/venation.h"
+#include "core/world/floor_image.h"
+#include "core/world/patches.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Nodes of the cover along each side of a tile that is not among the finest.
+constexpr double cover_nodes = 16.0;
+
+/// Places along each side of a tile at which the crowns are looked at.
+constexpr int canopy_nodes = 65;
+
+/// The light below crowns that are not known one by one.
+constexpr double light_below_crowns = 0.3;
+
+/// Crowns hide the ground from this height on, metres.
+constexpr double closed_height = 4.0;
+
+/// Crowns as hills: their size in metres, and their height as a share of the trees'.
+constexpr double crown_size = 9.0, crown_relief = 0.16;
+
+bool shows_crowns(const PlotContent& content) { return content.size > coarsest_of_trees; }
+
+/// Returns the height of the crowns at places, with the hills that they are from above.
+std::vector<double> crown_heights(const World& world, const PlotContent& content,
+                                  std::span<const double> x, std::span<const double> y) {
+    PatchCanopy canopy(world.stand, content.time);
+    Random random(content.seed, purposes::floor_noise, 2);
+    const std::uint32_t seed = random.bits();
+    std::vector<float> u(x.size()), v(x.size()), noise(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) u[i] = static_cast<float>(x[i] / crown_size);
+    std::vector<double> heights;
+    heights.reserve(x.size() * y.size());
+    for (const double north : y) {
+        std::fill(v.begin(), v.end(), static_cast<float>(north / crown_size));
+        gradient_noise(u, v, seed, noise);
+        for (std::size_t i = 0; i < x.size(); ++i)
+            heights.push_back(canopy.at(point_at(x[i], north)) *
+                              (1.0 - crown_relief + crown_relief * static_cast<double>(noise[i])));
+    }
+    return heights;
+}
+
+/// Returns the colour of the crowns of a kind from above, sRGB, and how much of the ground they hide.
+glm::dvec4 look_of_crowns(const TreePreset& tree, const LeafPreset& leaf, int day) {
+    const bool evergreen = has_needles({leaf.shape, leaf.palette});
+    const LeafState state = evergreen ? LeafState{} : leaves_on(day);
+    if (state.bare) return {0.36, 0.32, 0.29, 0.55};
+    LaminaPlace middle;
+    middle.inside = true;
+    middle.affinity = middle.homothety = 0.5;
+    middle.from_main = 0.3;
+    const auto params = params_of(tree);
+    const glm::dvec3 light =
+        LeafColourMap(leaf.palette).at(middle, evergreen ? params.autumn : state.autumn).upper;
+    // Gaps between leaves are dark.
+    constexpr double of_light = 0.55;
+    return {linear_to_srgb(of_light * light.x), linear_to_srgb(of_light * light.y),
+            linear_to_srgb(of_light * light.z), 1.0};
+}
+
+/// Returns the mean look of the crowns of a stand.
+glm::dvec4 look_of_stand(const World& world, const PlotContent& content, const Atlas& atlas) {
+    glm::dvec4 sum(0.0);
+    for (const StandKind& kind : world.stand.kinds) {
+        const TreePreset* const tree = atlas.find_tree(kind.id);
+        if (tree == nullptr) continue;
+        const LeafPreset* const leaf = atlas.find_leaf(params_of(*tree).look.leaf.id.string());
+        if (leaf == nullptr) continue;
+        sum += kind.share * look_of_crowns(*tree, *leaf, day_of_year(content.time));
+    }
+    return sum;
+}
+
+/// Mixes crowns into the base colour of a tile, and takes the gloss and the relief of the ground below them.
+void paint_crowns(RawImages& images, const World& world, const PlotContent& content,
+                  const Atlas& atlas) {
+    const WorldBox box = box_of(content);
+    std::vector<double> x, y;
+    for (int i = 0; i < canopy_nodes; ++i) {
+        const double t = static_cast<double>(i) / (canopy_nodes - 1);
+        x.push_back(box.west + t * content.size);
+        y.push_back(box.north - t * content.size);
+    }
+    const std::vector<double> heights = crown_heights(world, content, x, y);
+    const glm::dvec4 look = look_of_stand(world, content, atlas);
+    const auto node = [&](int column, int row) {
+        return heights[static_cast<std::size_t>(row * canopy_nodes + column)];
+    };
+    const double per_texel = static_cast<double>(canopy_nodes - 1) / (images.side - 1);
+    for (int row = 0; row < images.side; ++row)
+        for (int column = 0; column < images.side; ++column) {
+            const double across = column * per_texel, down = row * per_texel;
+            const int i = std::min(static_cast<int>(across), canopy_nodes - 2),
+                      j = std::min(static_cast<int>(down), canopy_nodes - 2);
+            const double s = across - i, t = down - j;
+            const double height = (1.0 - t) * ((1.0 - s) * node(i, j) + s * node(i + 1, j)) +
+                                  t * ((1.0 - s) * node(i, j + 1) + s * node(i + 1, j + 1));
+            const double hidden = look.w * std::clamp(height / closed_height, 0.0, 1.0);
+            if (hidden <= 0.0) continue;
+            // Crowns differ, and so do those of one crown's sides.
+            const auto draw =
+                philox({0, 1, static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)},
+                       {content.seed, purposes::floor_pieces})[0];
+            const double bright = 0.86 + 0.28 * static_cast<double>(draw >> 8U) / 16777216.0;
+            std::uint8_t* const colour =
+                &images.rgb[0][3 * (static_cast<std::size_t>(row) *
+                                        static_cast<std::size_t>(images.side) +
+                                    static_cast<std::size_t>(column))];
+            for (int k = 0; k < 3; ++k) {
+                const double own = 255.0 * std::clamp(bright * look[k], 0.0, 1.0);
+                colour[k] = static_cast<std::uint8_t>(colour[k] + hidden * (own - colour[k]) + 0.5);
+            }
+        }
+}
+
+/// Returns the cover of a tile whose trees are not known one by one.
+CoverField cover_from_afar(const World& world, const PlotContent& content, const Atlas& atlas,
+                           double step) {
+    PatchCanopy canopy(world.stand, content.time);
+    const std::vector<LeafLitter> litter = litter_of(content, atlas);
+    const Ground& ground = *content.ground;
+    CoverConditions at;
+    at.acidity = content.acidity;
+    at.day = day_of_year(content.time);
+    for (std::size_t kind = 0; kind < litter.size(); ++kind)
+        at.has_needles[kind] = has_needles(litter[kind]);
+    return cover_field(
+        box_of(content), floor_margin,
+        [&](double x, double y) {
+            const Coordinate column = coordinate_at(ground.grid, x),
+                             row = coordinate_at(ground.grid, y);
+            const Place place = place_at(ground, column, row);
+            const double shade = std::clamp(canopy.at(point_at(x, y)) / closed_height, 0.0, 1.0);
+            at.light =
+                world.site_at(point_at(x, y)).light * (1.0 - (1.0 - light_below_crowns) * shade);
+            at.wetness =
+                wetness_on(ground, wetness_index_at(ground, column, row), content.lasting_water);
+            at.slope = std::sqrt(place.east * place.east + place.north * place.north);
+            at.stream = stream_at(ground, column, row);
+            for (std::size_t kind = 0; kind < litter.size(); ++kind)
+                at.fall[kind] = shade * world.stand.kinds[kind].share;
+            return cover_of(at);
+        },
+        step);
+}
+
+}  // namespace
+
+int texels_of_tile(double side) { return side <= finest_tile ? finest_tile_texels : tile_texels; }
+
+Mesh tile_slab(const World& world, const PlotContent& content, const FloorHeights& floor,
+               double height) {
+    SlabParams params;
+    params.box = box_of(content);
+    params.nodes = tile_nodes;
+    params.texture_side = texels_of_tile(content.size);
+    params.height = height;
+    // Walls hide the cracks between tiles of different sizes.
+    params.depth = std::max(0.4, content.size / 16.0);
+    if (!shows_crowns(content)) return slab_mesh(params, floor);
+    return slab_mesh(params, [&](std::span<const double> x, std::span<const double> y) {
+        std::vector<double> heights = floor.at(x, y);
+        const std::vector<double> crowns = crown_heights(world, content, x, y);
+        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += crowns[i];
+        return heights;
+    });
+}
+
+RawImages tile_images(const World& world, const PlotContent& content, const Atlas& atlas,
+                      const Parallel& parallel) {
+    const bool is_finest = content.size <= finest_tile;
+    const double step = is_finest ? CoverField::finest_step : content.size / cover_nodes;
+    const std::vector<LeafLitter> litter = litter_of(content, atlas);
+    const CoverField cover = shows_crowns(content) ? cover_from_afar(world, content, atlas, step)
+                                                   : cover_of(content, atlas, step);
+    FloorPaint paint;
+    paint.seed = content.seed;
+    paint.box = box_of(content);
+    paint.side = texels_of_tile(content.size);
+    paint.wetness = std::clamp(content.soil_water / 100.0, 0.0, 1.0);
+    paint.day = day_of_year(content.time);
+    paint.kinds = litter;
+    paint.cover = &cover;
+    paint.pieces = is_finest;
+    RawImages images = floor_images(paint, parallel);
+    if (shows_crowns(content)) paint_crowns(images, world, content, atlas);
+    return images;
+}
+
+}  // namespace sporeprint

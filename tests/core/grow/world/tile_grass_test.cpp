@@ -1,0 +1,52 @@
+#include "core/grow/world/tile_grass.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/meshes.h"
+#include "tests/support/plots.h"
+
+namespace sporeprint::grow_world_tile_grass_test {
+namespace {
+
+CoverField covered_with_grass(const WorldBox& box, double share) {
+    return cover_field(box, 1.0, [share](double, double) {
+        Cover cover;
+        cover.grass = share;
+        cover.soil = 1.0 - share;
+        return cover;
+    });
+}
+
+std::size_t count(double share) {
+    const SmallWood wood;
+    const PlotContent content = wood.content(0.0, 0.0, 16.0);
+    const FloorHeights floor(wood.ground, content.seed, content.micro, {});
+    const PlotFrame frame(content, floor);
+    std::size_t sum = 0;
+    for (const auto& places : tufts_on(content, frame, covered_with_grass(box_of(content), share)))
+        for (const GlbTransform& place : places) {
+            EXPECT_LE(std::abs(place.translation.x), 8.0);
+            EXPECT_LE(std::abs(place.translation.z), 8.0);
+            ++sum;
+        }
+    return sum;
+}
+
+TEST(TileGrass, TuftsAreClosedShells) {
+    for (std::size_t shape = 0; shape < tuft_shapes; ++shape) {
+        const Mesh tuft = tuft_mesh(shape);
+        expect_valid(tuft);
+        EXPECT_EQ(tuft.triangles(), 36U);
+        EXPECT_EQ(tuft.tints.size(), tuft.positions.size());
+    }
+}
+
+TEST(TileGrass, GrowsAsGrassCoversTheGround) {
+    EXPECT_EQ(count(0.0), 0U);
+    // Twelve on each square metre, and a quarter of them where grass covers half.
+    EXPECT_EQ(count(1.0), 16U * 16U * 12U);
+    EXPECT_NEAR(static_cast<double>(count(0.5)), 0.25 * 16 * 16 * 12, 100.0);
+}
+
+}  // namespace
+}  // namespace sporeprint::grow_world_tile_grass_test

@@ -1,0 +1,90 @@
+#include "core/grow/world/tile_ground.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "core/grow/world/plot_of_world.h"
+#include "core/grow/world/tiling.h"
+#include "tests/support/meshes.h"
+#include "tests/support/worlds.h"
+
+namespace sporeprint::grow_world_tile_ground_test {
+namespace {
+
+const World& land(const char* preset) {
+    static std::map<std::string, World> worlds;
+    const auto found = worlds.find(preset);
+    if (found != worlds.end()) return found->second;
+    return worlds.emplace(preset, world_over_its_ground(small_world(preset))).first->second;
+}
+
+PlotContent content(const World& world, double size) {
+    return content_of(world, {0.5 * size, -0.5 * size, size}, time_of(80, 190));
+}
+
+std::array<double, 3> mean_colour(const RawImages& images) {
+    std::array<double, 3> sum{};
+    for (std::size_t i = 0; i < images.rgb[0].size(); ++i) sum[i % 3] += images.rgb[0][i];
+    for (double& value : sum) value /= static_cast<double>(images.side) * images.side;
+    return sum;
+}
+
+TEST(TileGround, IsAClosedSlabOfTheSameNumberOfVertices) {
+    const World& world = land("mixed");
+    std::size_t vertices = 0;
+    for (const double size : {8.0, 64.0, 256.0}) {
+        PlotContent of = content(world, size);
+        of.centre = {};
+        const FloorHeights floor(*world.ground, of.seed, of.micro, {});
+        const Mesh slab = tile_slab(world, of, floor, 0.0);
+        expect_valid(slab);
+        if (vertices == 0) vertices = slab.positions.size();
+        EXPECT_EQ(slab.positions.size(), vertices);
+    }
+}
+
+TEST(TileGround, OfTheWholeWorldHasCrownsWhereTreesAre) {
+    const auto top = [](const char* preset) {
+        const World& world = land(preset);
+        PlotContent of = content(world, 256.0);
+        of.centre = {};
+        const FloorHeights floor(*world.ground, of.seed, of.micro, {});
+        const Mesh slab = tile_slab(world, of, floor, 0.0);
+        double above = 0.0;
+        const auto nodes = static_cast<std::size_t>(tile_nodes);
+        for (std::size_t i = 0; i < nodes * nodes; ++i) {
+            const glm::vec3 at = slab.positions[i];
+            above += static_cast<double>(at.y) -
+                     floor.at(static_cast<double>(at.x), -static_cast<double>(at.z));
+        }
+        return above / static_cast<double>(nodes * nodes);
+    };
+    EXPECT_GT(top("beech"), 10.0);
+    EXPECT_NEAR(top("meadow"), 0.0, 1.0);
+}
+
+TEST(TileGround, FromAfarWoodsAreGreenInSummerAndBrownInWinter) {
+    const World& world = land("beech");
+    PlotContent summer = content(world, 256.0);
+    summer.centre = {};
+    PlotContent winter = summer;
+    winter.time = time_of(80, 15);
+    const std::array<double, 3> green = mean_colour(tile_images(world, summer, atlas())),
+                                brown = mean_colour(tile_images(world, winter, atlas()));
+    EXPECT_GT(green[1], 1.1 * green[0]);
+    EXPECT_GT(brown[0], brown[1]);
+    EXPECT_GT(brown[1], brown[2]);
+}
+
+TEST(TileGround, LooksAlikeFromNearAndFromAfar) {
+    const World& world = land("meadow");
+    const std::array<double, 3> near =
+                                    mean_colour(tile_images(world, content(world, 8.0), atlas())),
+                                far =
+                                    mean_colour(tile_images(world, content(world, 16.0), atlas()));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(near[k], far[k], 30.0) << k;
+}
+
+}  // namespace
+}  // namespace sporeprint::grow_world_tile_ground_test
