@@ -21,9 +21,6 @@ namespace sporeprint {
 
 namespace {
 
-/// The most rings of a piece.
-constexpr double most_rings = 160.0;
-
 class TrunkBuilder {
   public:
     TrunkBuilder(const TrunkPieceParams& params, const std::function<TrunkSection(double)>& section)
@@ -33,7 +30,7 @@ class TrunkBuilder {
         const double around = wood_girths * 2.0 * pi * middle;
         // Images end at rings: their length is adapted, so that it divides half of itself.
         double step = 0.5 * around;
-        while (params.length / step > most_rings) step *= 2.0;
+        while (params.length / step > params.rings) step *= 2.0;
         image_length_ = std::max(around, step);
         const double first = std::ceil(params.start / step - 1e-9) * step - params.start;
         at_.push_back(0.0);
@@ -191,6 +188,7 @@ Mesh trunk_piece(const TrunkPieceParams& params,
     if (!(params.length > 0.0)) throw InvalidInput("/length", "a trunk has a positive length");
     if (params.sides < 6 || params.sides % 2 != 0)
         throw InvalidInput("/sides", "a trunk has an even number of sides, at least 6");
+    if (params.rings < 4) throw InvalidInput("/rings", "a trunk has at least 4 rings");
     return TrunkBuilder(params, section).mesh();
 }
 

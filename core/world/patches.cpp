@@ -93,7 +93,11 @@ const PatchCanopy::Known& PatchCanopy::patch(CellIndex cell) {
     tree.born = time_after(*std::prev(next), mean_birth);
     for (const StandKind& kind : stand_->kinds)
         tree.height += kind.share * stand_->params.height * kind.ecology.height / standard_height;
-    found->second.height = tree.born < time_ ? height_at(tree, time_) : 0.0;
+    if (tree.born >= time_) return found->second;
+    const double height = height_at(tree, time_), radius = crown_radius(height);
+    // Crowns over a place, of trees that are thrown at random.
+    const double crowns = seedling_density * stand_->params.density * pi * radius * radius;
+    found->second.height = height * (1.0 - exponential(-crowns));
     return found->second;
 }
 

@@ -14,6 +14,9 @@ namespace sporeprint {
 /// The side of the squares that have the seed of one patch each.
 inline constexpr std::int32_t patch_units = 22 * units_of_metre;
 
+/// Seedlings per square metre at density 1.
+inline constexpr double seedling_density = 0.2;
+
 /// Returns a draw of a Weibull distribution.
 ///
 /// mean_of_one  mean for scale 1: gamma(1 + 1 / shape)
@@ -48,7 +51,8 @@ class PatchCanopy {
     /// stand  must outlive the canopy
     PatchCanopy(const Stand& stand, WorldTime time) : stand_(&stand), time_(time) {}
 
-    /// Returns the height of the crowns above the ground at a place, metres; 0 where no trees stand.
+    /// Returns the height of the crowns above the ground at a place, metres; 0 where no trees stand, and less than
+    /// that of the trees where their crowns do not close.
     ///
     /// cost  20 us for the first place of a patch, 0.2 us for others
     [[nodiscard]] double at(WorldPoint place);

@@ -22,9 +22,6 @@ constexpr int nurseries_of_patch = 4;
 /// How far a chain of four rounds of competition reaches, and how far one of them, metres.
 constexpr double apron = 20.0, greatest_zone = 5.0;
 
-/// Seedlings per square metre at density 1.
-constexpr double seedling_density = 0.2;
-
 /// Within so many years after a storm, trees are born; the strongest is as strong as if it was born so many earlier.
 constexpr double birth_years = 12.0, vigour_years = 10.0;
 

@@ -297,8 +297,10 @@ ReadScene expect_scene(const Bytes& file) {
         found.materials.push_back(std::move(one));
     }
     EXPECT_EQ(model.scenes.size(), 1u);
-    for (const int root : model.scenes.at(0).nodes) {
-        const auto& node = model.nodes.at(static_cast<std::size_t>(root));
+    std::vector<int> nodes = model.scenes.at(0).nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const auto& node = model.nodes.at(static_cast<std::size_t>(nodes[i]));
+        nodes.insert(nodes.end(), node.children.begin(), node.children.end());
         EXPECT_LT(node.mesh, static_cast<int>(model.meshes.size())) << node.name;
         found.nodes.push_back(
             {node.name, node.mesh, node.translation, node.rotation, node.scale, {}});

@@ -77,7 +77,7 @@ struct ReadNode {
 struct ReadScene {
     std::vector<std::vector<ReadPrimitive>> meshes;
     std::vector<ReadMaterial> materials;
-    std::vector<ReadNode> nodes;             ///< those of the scene, in its order
+    std::vector<ReadNode> nodes;             ///< roots of the scene, then children
     std::vector<std::array<int, 2>> images;  ///< width and height of each; -1 of linked ones
     std::vector<std::string> uris;
     std::vector<std::string> required;  ///< extensionsRequired

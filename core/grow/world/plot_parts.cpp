@@ -75,7 +75,7 @@ std::shared_ptr<const TreeMeshes> cached_meshes(const TreeSpec& spec, const Atla
 int sides_of(double radius) { return radius > 0.18 ? 16 : radius > 0.08 ? 12 : 8; }
 
 PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& content,
-               const CoverField& cover, Substrate kind) {
+               const CoverField& cover, Substrate kind, const TrunkDetail& detail) {
     const bool lies = wood.lies_at(content.time);
     const double lost = mass_lost(wood, content.time);
     // A snag goes on below the ground.
@@ -83,7 +83,8 @@ PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& c
     TrunkPieceParams params;
     params.length = line.to - line.from + below;
     params.seed = static_cast<std::uint32_t>(wood.id);
-    params.sides = sides_of(radius_at(wood, content.time));
+    params.sides = std::min(sides_of(radius_at(wood, content.time)), detail.sides);
+    params.rings = detail.rings;
     params.foot = TrunkEnd::cut;
     params.lost = 0.6 * lost;
     if (lies) {
@@ -181,12 +182,13 @@ Substrate wood_of(const TreePreset& tree) {
 }
 
 std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,
-                             const CoverField& cover, const Atlas& atlas) {
+                             const CoverField& cover, const Atlas& atlas,
+                             const TrunkDetail& detail) {
     std::vector<PlotLog> logs;
     for (const DeadWood& wood : content.dead_wood) {
         if (const auto line = trunk_line(wood, content, frame))
-            logs.push_back(
-                log_of(wood, *line, content, cover, wood_of(preset_of(content, wood.kind, atlas))));
+            logs.push_back(log_of(wood, *line, content, cover,
+                                  wood_of(preset_of(content, wood.kind, atlas)), detail));
     }
     return logs;
 }

@@ -60,9 +60,15 @@ struct PlotLog {
 /// Returns the wood of a kind of tree.
 [[nodiscard]] Substrate wood_of(const TreePreset& tree);
 
+/// How finely trunks are divided: sides of the thickest ones, and rings.
+struct TrunkDetail {
+    int sides = 16, rings = 160;
+};
+
 /// Returns the dead trunks on a plot: logs are cut where they leave it.
 [[nodiscard]] std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,
-                                           const CoverField& cover, const Atlas& atlas);
+                                           const CoverField& cover, const Atlas& atlas,
+                                           const TrunkDetail& detail = {});
 
 /// Leaves of one kind that lie on the floor.
 struct PlotLeaves {

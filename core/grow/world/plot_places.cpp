@@ -123,14 +123,16 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
 
 }  // namespace
 
-PlotFrame::PlotFrame(const PlotContent& content, const FloorHeights& floor)
+PlotFrame::PlotFrame(const PlotContent& content, const FloorHeights& floor, double step)
     : floor_(&floor),
       box_(box_of(content)),
       x_(metres(content.centre.x)),
       y_(metres(content.centre.y)),
-      height_(slab_height(place_at(*content.ground, coordinate_at(content.ground->grid, x_),
-                                   coordinate_at(content.ground->grid, y_))
-                              .height)) {}
+      height_(step * std::floor(place_at(*content.ground, coordinate_at(content.ground->grid, x_),
+                                         coordinate_at(content.ground->grid, y_))
+                                        .height /
+                                    step +
+                                0.5)) {}
 
 bool PlotFrame::has(const WorldPoint& at) const {
     const double x = metres(at.x), y = metres(at.y);

@@ -19,7 +19,8 @@ namespace sporeprint {
 /// The frame of a plot: places of a world, metres, as places of a file.
 class PlotFrame {
   public:
-    PlotFrame(const PlotContent& content, const FloorHeights& floor);
+    /// step  of the height of the origin, metres: a multiple of slab_step
+    PlotFrame(const PlotContent& content, const FloorHeights& floor, double step = slab_step);
     [[nodiscard]] glm::dvec3 at(double x, double y, double height) const {
         return {x - x_, height - height_, y_ - y};
     }

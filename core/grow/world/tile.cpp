@@ -29,6 +29,7 @@
 #include "core/math/direction.h"
 #include "core/world/canopy_light.h"
 #include "core/world/season.h"
+#include "core/world/tree_growth.h"
 
 namespace sporeprint {
 
@@ -43,6 +44,13 @@ constexpr int body_texture_side = 512, wood_texture_side = 512;
 
 /// Leaves that are meshes where leaves cover the ground, per m².
 constexpr double leaves_per_m2 = 20.0;
+
+/// Heights of origins are multiples of this, metres, which have short decimals, so that readers of single and of double
+/// precision find neighbours at equal heights.
+constexpr double origin_step = 1.0 / 16.0;
+
+/// Radius from which on dead trunks are thick, metres.
+constexpr double least_thick = 0.07;
 
 /// How far beyond a tile the feet of trees raise ground on which something of it stands, metres: a trunk may lie
 /// half beyond its tile.
@@ -103,12 +111,12 @@ class TileScene {
             const std::vector<TreeFoot> feet =
                 raises_ground() ? feet_of(wide_) : std::vector<TreeFoot>();
             const FloorHeights floor(*content_.ground, content_.seed, content_.micro, feet);
-            const PlotFrame frame(content_, floor);
+            const PlotFrame frame(content_, floor, origin_step);
             scene_.nodes[0].translation = frame.origin();
             add_layer(frame, floor);
         } else {
             const FloorHeights floor(*content_.ground, content_.seed, content_.micro, {});
-            scene_.nodes[0].translation = PlotFrame(content_, floor).origin();
+            scene_.nodes[0].translation = PlotFrame(content_, floor, origin_step).origin();
         }
         execution_.observer(Step::pack);
         throw_if_cancelled(execution_);
@@ -346,23 +354,27 @@ class TileScene {
     void add_floor(const PlotFrame& frame, const FloorHeights& floor) {
         const CoverField cover = cover_of(content_, atlas_);
         throw_if_cancelled(execution_);
-        if (content_.size > 2.0 * finest_tile)
-            add_logs(cover, floor);
-        else if (content_.size > finest_tile)
+        if (content_.size > finest_tile) add_trunks(cover, floor);
+        if (content_.size > 2.0 * finest_tile) return;
+        if (content_.size > finest_tile)
             add_grass(frame, cover);
         else
             add_litter(frame, cover);
     }
 
-    void add_logs(const CoverField& cover, const FloorHeights& floor) {
-        // Trunks whose middle lies on the tile, whole.
+    /// Adds trunks whose middle lies on the tile, whole: thick ones to large tiles, thin ones to those below.
+    void add_trunks(const CoverField& cover, const FloorHeights& floor) {
+        const bool are_thick = content_.size > 2.0 * finest_tile;
         std::vector<DeadWood> own;
         for (const DeadWood& wood : around_.dead)
-            if (contains(box_, middle_of(wood, request_.time))) own.push_back(wood);
+            if ((radius_at(wood, request_.time) >= least_thick) == are_thick &&
+                contains(box_, middle_of(wood, request_.time)))
+                own.push_back(wood);
         PlotContent content = wide_;
         content.dead_wood = own;
-        const PlotFrame frame(content, floor);
-        for (PlotLog& log : logs_of(content, frame, cover, atlas_)) {
+        const PlotFrame frame(content, floor, origin_step);
+        const TrunkDetail detail = are_thick ? TrunkDetail{12, 40} : TrunkDetail{8, 16};
+        for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
             const WoodPaint paint{log.wood, wood_side({wood_texture_side}, 0)};
             const std::size_t wood = material(
                 wood_name(paint, textures()), [](GlbMaterial& look) { look.repeats_u = true; },
@@ -409,7 +421,7 @@ class TileScene {
     }
 
     void add_fungi(const PlotFrame& frame, const FloorHeights& floor) {
-        const PlotFrame of_trunks(wide_, floor);
+        const PlotFrame of_trunks(wide_, floor, origin_step);
         BearingTrunks trunks(wide_, of_trunks);
         using Key = std::tuple<std::size_t, int, std::uint64_t>;
         std::map<Key, std::vector<const FruitBody*>> groups;

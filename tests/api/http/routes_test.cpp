@@ -118,7 +118,7 @@ TEST(Routes, NoOtherFileNamesAProduct) {
     for (const RouteGroup& group : route_table().groups()) {
         if (std::none_of(group.routes.begin(), group.routes.end(), is_cached)) continue;
         ++products;
-        const std::string header = std::string("\"api/products/") + group.tag + ".h\"";
+        const std::string product = std::string("\"api/products/") + group.tag;
         std::set<std::string> users;
         for (const auto& entry : fs::recursive_directory_iterator(api)) {
             if (!entry.is_regular_file()) continue;
@@ -127,7 +127,8 @@ TEST(Routes, NoOtherFileNamesAProduct) {
                 continue;
             std::ifstream file(entry.path());
             const std::string text((std::istreambuf_iterator<char>(file)), {});
-            if (text.find(header) != std::string::npos ||
+            if (text.find(product + ".h\"") != std::string::npos ||
+                text.find(product + '/') != std::string::npos ||
                 text.find("/v1/" + std::string(group.tag)) != std::string::npos)
                 users.insert(name);
         }
