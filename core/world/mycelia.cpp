@@ -323,7 +323,8 @@ class GroundMycelia {
         }
         const Site site = fungi_.habitat.site_at(genet.centre, genet.born);
         const double established = fungi_.habitat.establishment(index_, genet.centre, genet.born);
-        return candidate.draw < chance(established * suitability(species_.ecology, site));
+        const double share = fungi_.habitat.share(index_, genet.centre);
+        return candidate.draw < chance(established * share * suitability(species_.ecology, site));
     }
 
     /// Returns whether a candidate lives after so many rounds: in each of them it dies if it began where an older one
@@ -462,7 +463,8 @@ void append_of_trunk(const Fungi& fungi, std::uint8_t index, const DeadWood& woo
             }))
             continue;
         const Site site = fungi.habitat.site_at(genet.centre, genet.born);
-        if (draw >= chance(established * suitability(ecology, site))) continue;
+        const double share = fungi.habitat.share(index, genet.centre);
+        if (draw >= chance(established * share * suitability(ecology, site))) continue;
         if (genet.died > genet.born) living.push_back(placed);
     }
     for (const Placed& placed : living) genets.push_back(placed.genet);

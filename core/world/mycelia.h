@@ -46,6 +46,11 @@ class Habitat {
     /// Returns how likely spores of a species have arrived and grown, 0..1.
     [[nodiscard]] virtual double establishment(std::size_t species, WorldPoint place,
                                                WorldTime time) const = 0;
+    /// Returns the share of a species that a place may have, 0..1: suitability is multiplied by it.
+    [[nodiscard]] virtual double share([[maybe_unused]] std::size_t species,
+                                       [[maybe_unused]] WorldPoint place) const {
+        return 1.0;
+    }
     /// Returns how wet the ground of a site is on a day, 0..1.
     ///
     /// soil_water  mean of the world on that day, mm

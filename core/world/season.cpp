@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
+#include "core/problems.h"
 #include "core/world/cell_random.h"
 #include "core/world/fruiting_weather.h"
 #include "core/world/influence.h"
@@ -19,6 +21,10 @@ namespace {
 constexpr double flush_rate = 0.12;
 constexpr int rest_days = 14;
 constexpr int most_flushes = 8;
+
+/// Bodies that may grow in one rectangle and near it in a year, and those that are drawn for them. Woods of the atlas
+/// have a hundredth of that.
+constexpr std::size_t most_sprouts = 300'000, most_drawn = 6'000'000;
 
 /// Less than this allows nothing: without rain, nothing fruits.
 constexpr double least_gate = 0.02;
@@ -153,6 +159,7 @@ class Season {
         std::vector<FruitBody> out = spaced(sprouts_);
         std::erase_if(out, [&](const FruitBody& body) { return !input_.region.contains(body.at); });
         out.insert(out.end(), brackets_.begin(), brackets_.end());
+        std::erase_if(out, [&](const FruitBody& body) { return !has_share(body); });
         std::ranges::sort(out, {}, &FruitBody::id);
         return out;
     }
@@ -173,6 +180,24 @@ class Season {
     /// Returns whether a place is in the rectangle or at most so many metres from it in each direction.
     [[nodiscard]] bool is_near(WorldPoint place, double most) const {
         return input_.region.grown(most).contains(place);
+    }
+
+    /// Returns whether a body is among the share of its species that its place may have: the highest 24 bits of its id are
+    /// the draw. Others have taken its space as if it was there, so that bodies of a share are among those of all.
+    [[nodiscard]] bool has_share(const FruitBody& body) const {
+        constexpr double all = 1U << 24;
+        const double share = fungi_.habitat.share(body.species, body.at);
+        return static_cast<double>(body.id >> 40) < share * all;
+    }
+
+    /// Counts bodies that are drawn.
+    void count_drawn(int number, std::size_t placed) {
+        drawn_ += static_cast<std::size_t>(number);
+        if (drawn_ > most_drawn || placed > most_sprouts)
+            throw Impossible("/world",
+                             "more than " + std::to_string(most_sprouts) +
+                                 " fruit bodies of a year would grow within a block of 64 m; lower "
+                                 "fungi.abundance, or fruit.density of the ecology of a species");
     }
 
     /// Collects the mycelia of the species that may have bodies in the rectangle or own places there, and the days on
@@ -388,6 +413,7 @@ class Season {
             const WorldPoint middle{cluster.at.x + units(fruit.cluster_spread * east),
                                     cluster.at.y + units(fruit.cluster_spread * north)};
             const int number = bodies_of_tuft_(many);
+            count_drawn(number, sprouts_.size());
             for (int i = 0; i < number; ++i) {
                 const double x = random.bell(), y = random.bell();
                 Sprout sprout;
@@ -489,6 +515,7 @@ class Season {
         for (int tuft = 0; tuft < tufts; ++tuft) {
             const double away = random.bell(), round = random.bell(), many = random.uniform();
             const int number = bodies_of_tuft_(many);
+            count_drawn(number, out.size() + brackets_.size());
             for (int i = 0; i < number; ++i) {
                 const double x = random.bell(), y = random.bell();
                 Sprout sprout;
@@ -630,6 +657,7 @@ class Season {
     AtLeastOne tufts_, bodies_of_tuft_;
     std::vector<Sprout> sprouts_;
     std::vector<FruitBody> brackets_;
+    std::size_t drawn_ = 0;
 };
 
 }  // namespace

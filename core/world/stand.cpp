@@ -112,7 +112,7 @@ class Nursery {
         std::vector<Seedling> out;
         for (std::size_t i = 0; i < cells_.size(); ++i)
             for (const std::size_t owner : owners_[i]) add(cells_.cell(i), owner, out);
-        if (stand_.lone && cells_.contains({})) out.push_back(lone());
+        if (stand_.lone && cells_.contains({}) && share_at({}) > 0.0) out.push_back(lone());
         return out;
     }
 
@@ -211,13 +211,19 @@ class Nursery {
             one.tree.at.x = place_in(cell.x, nursery_units, random.bits());
             one.tree.at.y = place_in(cell.y, nursery_units, random.bits());
             const double taken = random.uniform(), kind = random.uniform();
-            if (taken >= stand_.params.density || is_in_glade(one.tree.at) ||
-                owner_of(cell, one.tree.at) != owner || !choose_kind(one.tree, kind))
+            if (taken >= stand_.params.density * share_at(one.tree.at) ||
+                is_in_glade(one.tree.at) || owner_of(cell, one.tree.at) != owner ||
+                !choose_kind(one.tree, kind))
                 continue;
             one.cohort = static_cast<std::uint32_t>(owner) * 1024 + cohort + 1;
             grow(one, random, patch.storms[cohort], patch.storms[cohort + 1]);
             if (one.tree.born < one.tree.died) out.push_back(one);
         }
+    }
+
+    /// Returns which share of the seedlings of a place is there. Those of a smaller share are among those of a greater.
+    [[nodiscard]] double share_at(WorldPoint place) const {
+        return stand_.mask ? stand_.mask->at(place) : 1.0;
     }
 
     [[nodiscard]] bool is_in_glade(WorldPoint place) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/world/records.h"
 #include "core/world/site.h"
 #include "core/world/stand_params.h"
+#include "core/world/world_mask.h"
 
 namespace sporeprint {
 
@@ -28,6 +30,8 @@ struct Stand {
     std::uint32_t seed = 1;
     std::vector<StandKind> kinds;      ///< at least one, at most 255
     std::optional<std::uint8_t> lone;  ///< which of the kinds stands at the centre of the world
+    /// Share of the seedlings that are there; null for all. A lone tree stands where it is not 0.
+    std::shared_ptr<const WorldMask> mask{};
 };
 
 /// Returns the height that no tree of a stand exceeds, metres.

@@ -65,6 +65,12 @@ void add_species(World& world, const WorldLookup& lookup) {
             report(problems, "fungi.species", "there is no species " + in_quotes(id));
             continue;
         }
+        if (world.edits)
+            if (const auto own = world.edits->ecologies.find(id);
+                own != world.edits->ecologies.end()) {
+                record->ecology = own->second.ecology;
+                record->months = bits_of_months(own->second.months);
+            }
         FungusSpecies species;
         species.ecology = std::move(record->ecology);
         species.stream = stream_of(id);
@@ -74,6 +80,45 @@ void add_species(World& world, const WorldLookup& lookup) {
         world.species.push_back(std::move(species));
     }
     if (!problems.empty()) throw InvalidInput(std::move(problems));
+}
+
+/// Sets which masks each species has.
+void add_masks(World& world) {
+    const std::shared_ptr<const WorldMask> of_all = world.edits->mask(mask_of_fungi);
+    world.masks.resize(world.species_ids.size());
+    bool has_any = false;
+    for (std::size_t i = 0; i < world.masks.size(); ++i)
+        for (const std::shared_ptr<const WorldMask>& mask :
+             {of_all, world.edits->mask(world.species_ids[i])}) {
+            if (!mask) continue;
+            world.masks[i].push_back(mask);
+            has_any = true;
+        }
+    if (!has_any) world.masks.clear();
+}
+
+/// Multiplies the suitability of the cells of a grid for a species by the means of its masks over them.
+void apply_masks(const World& world, std::size_t species, const Grid& grid,
+                 std::vector<double>& suitability) {
+    if (world.masks.empty()) return;
+    const double half = 0.5 * grid.cell;
+    for (const std::shared_ptr<const WorldMask>& mask : world.masks[species])
+        for (int row = 0; row < grid.side; ++row)
+            for (int column = 0; column < grid.side; ++column) {
+                const double x = grid.place(column), y = grid.place(row);
+                double& value = suitability[grid.index(column, row)];
+                if (value > 0.0) value *= mask->over({x - half, y - half, x + half, y + half});
+            }
+}
+
+/// Returns the founders of a species: its own, or those that are drawn.
+std::vector<Founder> founders_in(const World& world, std::size_t species, const Grid& grid,
+                                 std::span<const double> suitability) {
+    if (world.edits)
+        if (const auto own = world.edits->founders.find(world.species_ids[species]);
+            own != world.edits->founders.end())
+            return own->second;
+    return founders_of(grid, world.params.seed, world.species[species].stream, suitability);
 }
 
 /// What crowns do to the whole of a world: the share of the ground below them, and the light that they leave there.
@@ -145,8 +190,8 @@ void spread_species(World& world, const Parallel& parallel) {
             std::vector<Spreading> species;
             for (std::size_t i = first; i < last; ++i) {
                 suits.push_back(suitability_of(world, world.species[i], sites));
-                founders.push_back(founders_of(ground.grid, world.params.seed,
-                                               world.species[i].stream, suits.back()));
+                apply_masks(world, i, ground.grid, suits.back());
+                founders.push_back(founders_in(world, i, ground.grid, suits.back()));
             }
             for (std::size_t i = first; i < last; ++i)
                 species.push_back(
@@ -205,6 +250,14 @@ Place World::place_at(WorldPoint at) const {
     return sporeprint::place_at(*ground, coordinate_of(*this, at.x), coordinate_of(*this, at.y));
 }
 
+double World::share_at(std::size_t of_species, WorldPoint at) const {
+    double share = 1.0;
+    if (!masks.empty())
+        for (const std::shared_ptr<const WorldMask>& mask : masks[of_species])
+            share *= mask->at(at);
+    return share;
+}
+
 double World::downwind() const {
     // Winds come from a bearing, which turns from north to east; they blow to the opposite one.
     return radians(270.0 - params.climate.wind_from_deg);
@@ -213,17 +266,18 @@ double World::downwind() const {
 std::size_t World::bytes() const {
     std::size_t sum = sizeof(World) + horizon.bytes() + key.size();
     for (const Establishment& one : establishment) sum += one.bytes();
-    return sum;
+    return edits ? sum + edits->bytes() : sum;
 }
 
-std::string world_key(const WorldParams& params) {
+std::string world_key(const WorldParams& params, const SharedEdits& edits) {
     std::string key = "world ";
     canonical(params, key);
+    if (edits && !edits->empty()) (key += '\n') += edits->text;
     return key;
 }
 
 World world_of(const WorldParams& params, const WorldLookup& lookup,
-               std::shared_ptr<const Ground> ground, const Parallel& parallel) {
+               std::shared_ptr<const Ground> ground, const Parallel& parallel, SharedEdits edits) {
     World world;
     world.params = params;
     world.stand = stand_of(params, lookup);
@@ -232,8 +286,11 @@ World world_of(const WorldParams& params, const WorldLookup& lookup,
     world.sun = sun_of(radians(params.climate.latitude_deg),
                        is_southern(params) ? midsummer + half_a_year : midsummer);
     world.autumn_water = autumn_water_of(params);
-    world.key = world_key(params);
+    world.key = world_key(params, edits);
+    world.edits = std::move(edits);
+    if (world.edits) world.stand.mask = world.edits->mask(mask_of_trees);
     add_species(world, lookup);
+    if (world.edits) add_masks(world);
     spread_species(world, parallel);
     return world;
 }

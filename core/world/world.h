@@ -16,6 +16,7 @@
 #include "core/world/spread.h"
 #include "core/world/stand.h"
 #include "core/world/weather.h"
+#include "core/world/world_edits.h"
 #include "core/world/world_params.h"
 
 namespace sporeprint {
@@ -49,7 +50,10 @@ struct World {
     std::vector<std::string> species_ids;
     std::vector<FungusSpecies> species;
     std::vector<Establishment> establishment;  ///< of each species
-    std::string key;                           ///< all parameters, for caches
+    std::string key;                           ///< all parameters and edits, for caches
+    SharedEdits edits;                         ///< null if it has none
+    /// The masks of each species; empty if no species has one.
+    std::vector<std::vector<std::shared_ptr<const WorldMask>>> masks;
 
     /// Returns what a place has to give to what grows there, crowns not considered.
     [[nodiscard]] Site site_at(WorldPoint at) const;
@@ -57,6 +61,8 @@ struct World {
     [[nodiscard]] Site dim_site_at(WorldPoint at) const;
     /// Returns the ground at a place; beyond the world it is that of its rim.
     [[nodiscard]] Place place_at(WorldPoint at) const;
+    /// Returns the share of a species that a place may have by the masks of the world, 0..1.
+    [[nodiscard]] double share_at(std::size_t of_species, WorldPoint at) const;
     /// Returns the direction to which the wind blows most, radians from east to north.
     [[nodiscard]] double downwind() const;
     /// Returns the memory that it takes, its ground not counted.
@@ -64,16 +70,19 @@ struct World {
 };
 
 /// Returns the key of a world for caches.
-[[nodiscard]] std::string world_key(const WorldParams& params);
+///
+/// edits  settled, or null
+[[nodiscard]] std::string world_key(const WorldParams& params, const SharedEdits& edits = nullptr);
 
 /// Computes a world over its ground.
 ///
 /// parallel  spreads species side by side
+/// edits     settled, or null; those of species that the world does not have are ignored
 /// throws  InvalidInput as stand_of() does, or (path "fungi.species") for a species that is not known
 /// cost    50 ms, and 15 ms for each species
 [[nodiscard]] World world_of(const WorldParams& params, const WorldLookup& lookup,
                              std::shared_ptr<const Ground> ground,
-                             const Parallel& parallel = in_turn);
+                             const Parallel& parallel = in_turn, SharedEdits edits = nullptr);
 
 /// What stands and lies in one block, of all times.
 struct Block {

@@ -85,6 +85,10 @@ double WorldHabitat::establishment(std::size_t species, WorldPoint place, WorldT
     return establishment_at(world_.establishment[species], metres(place.x), metres(place.y), year);
 }
 
+double WorldHabitat::share(std::size_t species, WorldPoint place) const {
+    return world_.share_at(species, place);
+}
+
 double WorldHabitat::wetness_on(const Site& site, double soil_water) const {
     return sporeprint::wetness_on(*world_.ground, site.index, soil_water);
 }

@@ -36,6 +36,7 @@ class WorldHabitat : public Habitat {
     [[nodiscard]] Site site_at(WorldPoint place, WorldTime time) const override;
     [[nodiscard]] double establishment(std::size_t species, WorldPoint place,
                                        WorldTime time) const override;
+    [[nodiscard]] double share(std::size_t species, WorldPoint place) const override;
     [[nodiscard]] double wetness_on(const Site& site, double soil_water) const override;
 
   private:

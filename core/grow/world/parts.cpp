@@ -217,9 +217,7 @@ WorldLookup lookup_in(const Atlas& atlas) {
         const Facts& facts = entry->species.facts;
         SpeciesRecord record;
         record.ecology = entry->species.ecology;
-        for (const int month : facts.season)
-            record.months = static_cast<std::uint16_t>(record.months | 1U << (month - 1));
-        if (facts.season.empty()) record.months = 0xFFF;
+        record.months = bits_of_months(facts.season);
         const Range width = facts.cap_diameter_m.value_or(
             Range{0.5 * facts.height_m.from, 0.5 * facts.height_m.to});
         record.cap_radius = 0.25 * (width.from + width.to);

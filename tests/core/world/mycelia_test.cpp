@@ -393,5 +393,41 @@ TEST(Substrate, IsThatOfTheGuild) {
     EXPECT_TRUE(at(fomes(), 10.0, 10.0, -7).is_there);
 }
 
+/// A habitat in which a place may have as much of each species as a function says.
+class SharedHabitat : public EvenHabitat {
+  public:
+    double of_west = 1.0, of_east = 1.0;
+    [[nodiscard]] double share(std::size_t, WorldPoint place) const override {
+        return place.x < point(32.0, 0.0).x ? of_west : of_east;
+    }
+};
+
+TEST(Genets, AreThoseOfASuitabilityThatTheShareMultiplies) {
+    const std::vector<FungusSpecies> species{boletus("a"), species_of("turf", Guild::grass),
+                                             species_of("wood", Guild::wood)};
+    // Half of the light that they tolerate makes a suitability of a half.
+    std::vector<FungusSpecies> halved = species;
+    for (FungusSpecies& one : halved) one.ecology.light = {{0.0, 1.0}, {1.0, 1.0}};
+    EvenHabitat dim;
+    dim.site.light = 0.5;
+    SharedHabitat shared;
+    shared.of_west = shared.of_east = 0.5;
+    const std::vector<Genet> some =
+        genets_of({5, species, shared}, {0, 0}, epoch, stand().around());
+    EXPECT_EQ(some, genets_of({5, halved, dim}, {0, 0}, epoch, stand().around()));
+    EXPECT_FALSE(some.empty());
+}
+
+TEST(Genets, AreNowhereThatMayHaveNone) {
+    const std::vector<FungusSpecies> species{boletus("a"), species_of("turf", Guild::grass),
+                                             species_of("wood", Guild::wood)};
+    SharedHabitat shared;
+    shared.of_west = 0.0;
+    const std::vector<Genet> genets =
+        genets_of({5, species, shared}, {0, 0}, epoch, stand().around());
+    EXPECT_FALSE(genets.empty());
+    for (const Genet& genet : genets) EXPECT_GE(metres(genet.centre.x), 32.0);
+}
+
 }  // namespace
 }  // namespace sporeprint::mycelia_test

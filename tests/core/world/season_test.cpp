@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/problems.h"
 #include "core/world/tree_growth.h"
 #include "tests/support/forest.h"
 
@@ -528,6 +529,46 @@ TEST(Counts, AreThoseOfTheBodiesThatStandAtNoon) {
             });
             EXPECT_EQ(counts[i][static_cast<std::size_t>(day - 1)], number) << day;
         }
+}
+
+/// A habitat in which a place may have less of each species, the farther west the less.
+class SharedHabitat : public EvenHabitat {
+  public:
+    [[nodiscard]] double share(std::size_t, WorldPoint place) const override {
+        return std::clamp(metres(place.x) / 64.0 - 0.25, 0.0, 0.5);
+    }
+};
+
+TEST(Season, HasTheShareOfBodiesThatPlacesMayHave) {
+    SharedHabitat habitat;
+    habitat.site = forest().habitat.site;
+    const Fungi fungi{7, forest().species, habitat};
+    const std::vector<FruitBody> some =
+        season_of(fungi, forest().in(95), conditions_in(forest().species, beech, 7, 95), 1.0);
+    const std::vector<FruitBody>& all = bodies_in(95);
+    double expected = 0.0;
+    for (const FruitBody& body : all) expected += habitat.share(body.species, body.at);
+    for (const FruitBody& body : some) {
+        EXPECT_GT(habitat.share(body.species, body.at), 0.0);
+        EXPECT_TRUE(std::ranges::binary_search(all, body.id, {}, &FruitBody::id));
+    }
+    // Whether a body is among them is a draw of its own.
+    EXPECT_NEAR(static_cast<double>(some.size()), expected, 4.0 * std::sqrt(expected));
+}
+
+TEST(Season, OfTooManyBodiesIsImpossible) {
+    std::vector<FungusSpecies> species{marasmius()};
+    species[0].ecology.fruit.density = 200.0;
+    species[0].ecology.genet.rate = 0.001;
+    species[0].ecology.genet.reach = 20.0;
+    species[0].ecology.genet.speed = 2.0;
+    const EvenHabitat habitat;
+    const Fungi fungi{7, species, habitat};
+    const std::vector<Genet> genets = genets_of(fungi, {0, 0}, 2, {});
+    const SeasonConditions conditions = conditions_in(species, beech, 7, 95);
+    EXPECT_THROW(
+        static_cast<void>(season_of(fungi, {CellIndex{0, 0}, 95, genets, {}}, conditions, 1000.0)),
+        Impossible);
 }
 
 }  // namespace

@@ -249,5 +249,51 @@ TEST(Stand, HasAGladeAndALoneTree) {
     EXPECT_TRUE(trees_of(stand, everywhere, {1, 1}).empty());
 }
 
+/// Returns a mask of squares of 16 m over a world of 256 m.
+std::shared_ptr<const WorldMask> mask_of(const auto& value) {
+    WorldMask mask{256, 16, {}};
+    for (int row = 0; row < 16; ++row)
+        for (int column = 0; column < 16; ++column)
+            mask.values.push_back(static_cast<std::uint16_t>(value(column, row)));
+    return std::make_shared<const WorldMask>(std::move(mask));
+}
+
+TEST(Stand, WithAMaskThatIsWhiteIsTheSame) {
+    Stand masked = stand_of(7);
+    masked.mask = mask_of([](int, int) { return 65535; });
+    EXPECT_EQ(trees_of(masked, everywhere, {0, 0}), trees_of(stand_of(7), everywhere, {0, 0}));
+}
+
+TEST(Stand, OfAThirdOfTheSeedlingsIsOneOfAThirdOfTheDensity) {
+    Stand masked = stand_of(7, 0.75);
+    masked.mask = mask_of([](int, int) { return 21845; });
+    EXPECT_EQ(trees_of(masked, everywhere, {0, 0}),
+              trees_of(stand_of(7, 0.75 * (21845 / 65535.0)), everywhere, {0, 0}));
+}
+
+TEST(Stand, HasNoTreesWhereItsMaskIsBlack) {
+    Stand masked = stand_of(7);
+    // Every second square of 16 m, as on a chessboard.
+    masked.mask = mask_of([](int column, int row) { return (column + row) % 2 * 65535; });
+    std::size_t beside = 0;
+    for (const StandTree& tree : trees_of_square(masked, 2)) {
+        ASSERT_GT(masked.mask->at(tree.at), 0.0);
+        ++beside;
+    }
+    EXPECT_GT(beside, 100U);
+    // They have more light there: trees beside clearings that others would have killed.
+    const std::vector<StandTree> all = trees_of_square(stand_of(7), 2);
+    EXPECT_GT(2 * beside, all.size());
+}
+
+TEST(Stand, HasItsLoneTreeUnlessItsMaskIsBlackThere) {
+    Stand stand = stand_of(7, 0.0);
+    stand.lone = 0;
+    stand.mask = mask_of([](int, int) { return 1; });
+    EXPECT_EQ(trees_of(stand, everywhere, {0, 0}).size(), 1U);
+    stand.mask = mask_of([](int, int) { return 0; });
+    EXPECT_TRUE(trees_of(stand, everywhere, {0, 0}).empty());
+}
+
 }  // namespace
 }  // namespace sporeprint::stand_test

@@ -125,5 +125,119 @@ TEST(World, HasDeadWoodOfItsTreesInABlock) {
     EXPECT_GT(block.bytes(), trees.size() * sizeof(StandTree));
 }
 
+World edited(const WorldParams& params, WorldEdits edits) {
+    return world_of(params, lookup(), ground(), in_turn,
+                    std::make_shared<const WorldEdits>(settled(std::move(edits))));
+}
+
+/// Returns the greatest share of a species at one of the moments that are stored.
+int most_common(const World& world, std::size_t species, std::size_t moment) {
+    const std::vector<std::uint8_t>& shares = world.establishment[species].shares[moment];
+    return *std::max_element(shares.begin(), shares.end());
+}
+
+TEST(World, WithoutEditsHasTheKeyOfItsParameters) {
+    const WorldParams params = params_of("turf+wood");
+    EXPECT_EQ(edited(params, {}).key, world(params).key);
+    WorldEdits edits;
+    edits.founders["turf"] = {{1.0, 2.0, 3}};
+    EXPECT_NE(edited(params, edits).key, world(params).key);
+    EXPECT_EQ(edited(params, edits).key, edited(params, edits).key);
+}
+
+TEST(World, HasOnlyTheFoundersOfItsEditsOfASpeciesThatTheyName) {
+    const WorldParams params = params_of("turf+wood");
+    WorldEdits edits;
+    edits.founders["turf"] = {{-60.0, 0.0, 150}};
+    const World made = edited(params, edits), drawn = world(params);
+    EXPECT_EQ(made.establishment[1].shares, drawn.establishment[1].shares);
+    EXPECT_GT(most_common(drawn, 0, 7), 0);
+    EXPECT_EQ(most_common(made, 0, 7), 0) << "year 140";
+    const auto share = [&](double x, double year) {
+        return establishment_at(made.establishment[0], x, 0.0, year);
+    };
+    EXPECT_GT(share(-60.0, 160.0), 0.2);
+    EXPECT_GT(share(-60.0, 160.0), 4.0 * share(-20.0, 160.0));
+    EXPECT_GE(share(-20.0, 160.0), share(100.0, 160.0));
+    EXPECT_GT(share(-20.0, 200.0), share(-20.0, 160.0));
+}
+
+TEST(World, HasASpeciesDownwindOfItsFounder) {
+    WorldParams params = params_of("turf");
+    params.climate.wind_focus = 5.0;
+    WorldEdits edits;
+    edits.founders["turf"] = {{0.0, 0.0, 100}};
+    const auto middle_with_wind_from = [&](double deg) {
+        params.climate.wind_from_deg = deg;
+        const Establishment spread = edited(params, edits).establishment[0];
+        double sum = 0.0, all = 0.0;
+        for (int row = 0; row < spread.grid.side; ++row)
+            for (int column = 0; column < spread.grid.side; ++column) {
+                const double share = spread.shares[7][spread.grid.index(column, row)];
+                sum += share * spread.grid.place(column);
+                all += share;
+            }
+        return sum / all;
+    };
+    EXPECT_GT(middle_with_wind_from(270.0), 3.0);
+    EXPECT_LT(middle_with_wind_from(90.0), -3.0);
+}
+
+TEST(World, HasTheEcologiesOfItsEdits) {
+    const WorldParams params = params_of("pine_wood+turf");
+    WorldEdits edits;
+    edits.ecologies["turf"].months = {7};
+    edits.ecologies["turf"].ecology.genet.speed = 0.5;
+    edits.ecologies["pine_wood"].ecology.guild = Guild::ectomycorrhizal;
+    edits.ecologies["pine_wood"].ecology.trees = {Text<48>("birch")};
+    edits.ecologies["elsewhere"] = {};
+    const World made = edited(params, edits);
+    ASSERT_EQ(made.species.size(), 2U);
+    EXPECT_EQ(made.species[1].months, 0x040);
+    EXPECT_EQ(made.species[1].ecology.genet.speed, 0.5);
+    EXPECT_EQ(most_common(world(params), 0, 10), 0);
+    EXPECT_GT(most_common(made, 0, 10), 0) << "it has a host now";
+}
+
+TEST(World, MultipliesSuitabilityByItsMasks) {
+    const WorldParams params = params_of("turf+wood");
+    // The west is black for all, the north is half for turf: rows from north to south.
+    const auto mask = [](std::vector<std::uint16_t> values) {
+        return std::make_shared<const WorldMask>(WorldMask{256, 2, std::move(values)});
+    };
+    WorldEdits edits;
+    edits.masks[mask_of_fungi] = mask({0, 65535, 0, 65535});
+    edits.masks["turf"] = mask({13107, 13107, 65535, 65535});
+    const World made = edited(params, edits);
+    const WorldPoint north_east{units_of_metre, units_of_metre},
+        south_east{units_of_metre, -units_of_metre}, west{-units_of_metre, 0};
+    EXPECT_EQ(made.share_at(0, west), 0.0);
+    EXPECT_EQ(made.share_at(1, west), 0.0);
+    EXPECT_DOUBLE_EQ(made.share_at(0, north_east), 0.2);
+    EXPECT_EQ(made.share_at(1, north_east), 1.0);
+    EXPECT_EQ(made.share_at(0, south_east), 1.0);
+    EXPECT_EQ(world(params).share_at(0, west), 1.0);
+    for (std::size_t species = 0; species < 2; ++species) {
+        const Establishment& spread = made.establishment[species];
+        EXPECT_GT(most_common(made, species, 10), 0);
+        for (int row = 0; row < spread.grid.side; ++row)
+            for (int column = 0; column < spread.grid.side; ++column)
+                if (spread.grid.place(column) < -spread.grid.cell) {
+                    ASSERT_EQ(spread.shares[10][spread.grid.index(column, row)], 0);
+                }
+    }
+    EXPECT_GT(made.bytes(), world(params).bytes());
+}
+
+TEST(World, ThinsItsTreesByAMask) {
+    WorldEdits edits;
+    edits.masks[mask_of_trees] = std::make_shared<const WorldMask>(
+        WorldMask{256, 4, {0, 0, 0, 0, 0, 0, 65535, 0, 0, 0, 0, 0, 0, 0, 0, 0}});
+    const World made = edited(params_of(""), edits);
+    EXPECT_FALSE(block_of(made, {0, 0}).trees.empty());
+    EXPECT_TRUE(block_of(made, {-1, 0}).trees.empty());
+    EXPECT_TRUE(block_of(made, {0, 1}).trees.empty());
+}
+
 }  // namespace
 }  // namespace sporeprint::world_test

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "core/grow/world/plot.h"
 #include "core/world/tree_growth.h"
 #include "tests/support/worlds.h"
 
@@ -200,6 +201,97 @@ TEST(WorldParts, HaveMoreSpeciesOnLargerPlots) {
     EXPECT_GT(mycorrhizal, saprotrophic);
     EXPECT_NEAR(mycorrhizal, 0.4, 0.15);
     EXPECT_NEAR(saprotrophic, 0.35, 0.15);
+}
+
+World edited(const WorldParams& params, WorldEdits edits) {
+    static const auto ground = std::make_shared<const Ground>(ground_of(beech()));
+    return world_of(params, lookup_in(atlas()), ground, in_turn,
+                    std::make_shared<const WorldEdits>(std::move(edits)));
+}
+
+TEST(WorldParts, AreTheSameWithMasksThatAreWhite) {
+    const auto white =
+        std::make_shared<const WorldMask>(WorldMask{256, 2, std::vector<std::uint16_t>(4, 65535)});
+    WorldEdits edits;
+    edits.masks[mask_of_trees] = edits.masks[mask_of_fungi] = white;
+    edits.masks["boletus_edulis"] = white;
+    const World masked = edited(beech(), edits);
+    ASSERT_FALSE(masked.masks.empty());
+    CachedParts own;
+    const WorldBox box{-20, -20, 20, 20};
+    EXPECT_EQ(bodies_of_year(masked, box, 80, own.services),
+              bodies_of_year(world_with(beech()), box, 80, shared()));
+    EXPECT_EQ(blocks_round(masked, box, own.services).trees,
+              blocks_round(world_with(beech()), box, shared()).trees);
+}
+
+TEST(WorldParts, HaveNoBodiesWhereAMaskIsBlack) {
+    // Squares of 8 m as on a chessboard, for all; stripes of 4 m for one species.
+    WorldMask squares{256, 32, {}}, stripes{256, 64, {}};
+    for (int row = 0; row < 32; ++row)
+        for (int column = 0; column < 32; ++column)
+            squares.values.push_back(static_cast<std::uint16_t>((row + column) % 2 * 65535));
+    for (int row = 0; row < 64; ++row)
+        for (int column = 0; column < 64; ++column)
+            stripes.values.push_back(static_cast<std::uint16_t>(row % 2 * 65535));
+    WorldEdits edits;
+    edits.masks[mask_of_fungi] = std::make_shared<const WorldMask>(squares);
+    edits.masks["laccaria_amethystina"] = std::make_shared<const WorldMask>(stripes);
+    const World masked = edited(beech(), settled(std::move(edits)));
+    std::size_t of_stripes = 0;
+    const std::vector<FruitBody> bodies = bodies_of_year(masked, {-32, -32, 32, 32}, 80, shared());
+    for (const FruitBody& body : bodies) {
+        ASSERT_GT(squares.at(body.at), 0.0);
+        if (masked.species_ids[body.species] == "laccaria_amethystina") {
+            ASSERT_GT(stripes.at(body.at), 0.0);
+            ++of_stripes;
+        }
+    }
+    EXPECT_GT(bodies.size(), 100U);
+    EXPECT_GT(of_stripes, 0U);
+}
+
+TEST(WorldParts, FruitInTheMonthsOfTheirOwnEcologies) {
+    WorldParams params = beech();
+    params.climate.temperature = 7.0;  // so that July is cool enough for all
+    params.climate.rain = 1500.0;
+    const WorldLookup lookup = lookup_in(atlas());
+    WorldEdits edits;
+    std::vector<Problem> problems;
+    for (const std::string& id : species_in(params.fungi.species, "", problems))
+        edits.ecologies[id] = {lookup.species(id)->ecology, {7}};
+    const World july = edited(params, settled(std::move(edits)));
+    std::size_t counted = 0;
+    for (int year = 80; year < 84; ++year)
+        for (const FruitBody& body : bodies_of_year(july, {-32, -32, 32, 32}, year, shared())) {
+            if (july.species[body.species].ecology.body.perennial) continue;
+            const int day = day_of_year(body.emerged);
+            // July begins on day 182; ten days before and after it, and four days to emerge.
+            EXPECT_GE(day, 182 - 10);
+            EXPECT_LE(day, 212 + 10 + 4);
+            ++counted;
+        }
+    EXPECT_GT(counted, 20U);
+}
+
+TEST(WorldParts, OfAMeadowWithOneFounderHaveItsSpeciesNearIt) {
+    WorldParams params = small_world("meadow");
+    params.fungi.species = Text<620>("marasmius_oreades");
+    params.fungi.abundance = 10.0;
+    WorldEdits edits;
+    edits.founders["marasmius_oreades"] = {{-80.0, 0.0, 100}};
+    const World world =
+        world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)),
+                 in_turn, std::make_shared<const WorldEdits>(settled(std::move(edits))));
+    CachedParts own;
+    std::size_t near = 0, far = 0;
+    for (int year = 124; year < 130; ++year)
+        for (const FruitBody& body :
+             bodies_of_year(world, {-128, -64, 128, 64}, year, own.services))
+            ++(metres(body.at.x) < 0.0 ? near : far);
+    EXPECT_GT(near, 0U);
+    EXPECT_LT(10 * far, near);
+    EXPECT_TRUE(bodies_of_year(world, {-128, -64, 128, 64}, 60, own.services).empty());
 }
 
 }  // namespace
