@@ -119,6 +119,14 @@ void ValidationErrors::add(int status, const std::vector<Problem>& problems) {
     for (const Problem& problem : problems) add(status, problem.path, problem.message);
 }
 
+void ValidationErrors::point_into_body() {
+    for (Problem& problem : problems_) {
+        if (problem.path.empty() || problem.path.starts_with('/')) continue;
+        std::replace(problem.path.begin(), problem.path.end(), '.', '/');
+        problem.path.insert(problem.path.begin(), '/');
+    }
+}
+
 bool ValidationErrors::any(int status) const {
     return std::find(statuses_.begin(), statuses_.end(), status) != statuses_.end();
 }

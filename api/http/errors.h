@@ -42,6 +42,9 @@ class ValidationErrors {
     void add(int status, std::string parameter, std::string detail);
     void add(int status, const std::vector<Problem>& problems);
 
+    /// Turns names of parameters into pointers into a body: "stand.kinds" into "/stand/kinds". Pointers stay.
+    void point_into_body();
+
     [[nodiscard]] bool empty() const { return problems_.empty(); }
     [[nodiscard]] bool any(int status) const;
     [[nodiscard]] int status() const;

@@ -1,12 +1,14 @@
 // Fuzzes what names a world, a time and a rectangle in URLs, one line each: read, written in canonical form, and read
-// again.
+// again; and what follows as the edits in a body.
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/http/errors.h"
+#include "api/products/worlds/edits.h"
 #include "api/products/worlds/parts.h"
 #include "api/products/worlds/worlds.h"
 #include "core/atlas/atlas.h"
@@ -62,6 +64,25 @@ void read_as_box(std::string_view text) {
            "a rectangle as it is written reads back as itself");
 }
 
+void read_as_edits(std::string_view text, const Atlas& atlas) {
+    std::vector<Problem> problems;
+    Value body = parse(text, problems);
+    if (!problems.empty() || !body.is_object()) return;
+    WorldParams params = params_of(*atlas.find_world("meadow"));
+    params.extent.value = 256;
+    api::ValidationErrors errors;
+    const SharedEdits edits = api::take_edits(body, params, atlas, errors);
+    expect(errors.empty() || !edits, "edits with an error are none");
+    expect(!body.find("masks"), "what was read is no longer in the body");
+    if (!edits) return;
+    expect(!edits->empty() && !edits->text.empty(), "edits change something");
+    expect(settled(*edits).text == edits->text, "edits are settled");
+    for (const auto& [name, mask] : edits->masks) {
+        const double share = mask->at({-123 * units_of_metre, 45 * units_of_metre});
+        expect(share >= 0.0 && share <= 1.0, "a mask has shares");
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -70,5 +91,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_as_world(take_line(text), *atlas);
     read_as_time(take_line(text));
     read_as_box(take_line(text));
+    read_as_edits(text, *atlas);
     return 0;
 }

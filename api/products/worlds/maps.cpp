@@ -10,6 +10,7 @@
 
 #include "api/http/schemas.h"
 #include "api/products/resource.h"
+#include "api/products/worlds/part_request.h"
 #include "api/products/worlds/parts.h"
 #include "api/products/worlds/worlds.h"
 #include "core/grow/world/parts.h"
@@ -60,7 +61,7 @@ struct MapParams {
 };
 static_assert(well_described<MapParams>());
 
-/// A map that a URL names.
+/// A map that a URL or a body names.
 struct MapRequest {
     WorldRequest world;
     WorldMap map = WorldMap::height;
@@ -182,17 +183,21 @@ std::string read_species(const MapRequest& request, std::string_view text,
 
 MapRequest read_map(const RouteCall& call, ValidationErrors& errors) {
     MapRequest request;
-    request.world = read_world(call.captured[0], *call.context.atlas, errors);
-    read_map_name(call.captured[2], request, errors);
-    read_time(call.captured[1], request, errors);
+    // The last {name} of a path with others and without; it is no member of a body.
+    ValidationErrors of_path;
+    read_map_name(call.captured.back(), request, of_path);
+    const PartRequest part = read_part(call, errors);
+    request.world = part.world;
+    read_time(part.time, request, errors);
     MapParams params;
-    std::vector<Problem> problems;
-    read_query(query_of_world(call.target, errors), params, problems);
-    errors.add(400, problems);
+    read_params(part, params, errors);
     const WorldBox extent = extent_of(request.world.spec.params);
     request.box = read_box(params.bbox, extent, extent, errors);
     request.size = params.size;
     request.species = read_species(request, params.species, errors);
+    finish_reading(call, errors);
+    for (const Problem& problem : of_path.problems())
+        errors.add(404, problem.path, problem.message);
     return request;
 }
 
@@ -329,8 +334,11 @@ Value describe(const Context& context, const MapRequest& request, const Ground& 
         return context.responses.link(with_query(
             folder_of(Worlds::all) + world + path_of(request, ending_of(file)), query_of(request)));
     };
-    Value links = Value::object().set("self", link(MapFile::json)).set("png", link(MapFile::png));
-    if (!request.is_terrarium) links.set("r16", link(MapFile::r16));
+    Value links = Value::object();
+    if (!request.world.edits) {
+        links.set("self", link(MapFile::json)).set("png", link(MapFile::png));
+        if (!request.is_terrarium) links.set("r16", link(MapFile::r16));
+    }
     const WorldBox& box = request.box;
     return Value::object()
         .set("world", world)
@@ -389,7 +397,7 @@ Plan plan_file(RouteCall& call, MapFile file) {
     const bool with_world = file != MapFile::json && needs_world(request->map);
     if (with_world)
         resource.prerequisite = [request, atlas = context.atlas](Store& store) {
-            return world_job(store, request->world.spec.params, atlas);
+            return world_job(store, request->world.spec.params, atlas, request->world.edits);
         };
     else if (needs_ground)
         resource.prerequisite = [request](Store& store) {
@@ -403,7 +411,8 @@ Plan plan_file(RouteCall& call, MapFile file) {
         const WorldParams& params = request->world.spec.params;
         MapSource source;
         if (with_world) {
-            source.world = world_of_request(params, *context.atlas, execution);
+            source.world =
+                world_of_request(params, *context.atlas, execution, request->world.edits);
             source.ground = source.world->ground;
         } else {
             source.ground = needs_ground ? ground_of_world(params, execution.caches)

@@ -16,7 +16,7 @@ enum class MapFile {
     json
 };
 
-/// Handles GET /v1/worlds/{world}/{time}/maps/{map}.png, .r16 and .json.
+/// Handles GET /v1/worlds/{world}/{time}/maps/{map}.png, .r16 and .json, and POST /v1/worlds/maps/{map}.png and .json.
 template <MapFile File>
 Plan plan_map(RouteCall& call);
 

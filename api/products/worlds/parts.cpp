@@ -131,26 +131,26 @@ std::optional<Job> ground_job(Store& store, const WorldParams& params) {
 }
 
 SharedWorld world_of_request(const WorldParams& params, const Atlas& atlas,
-                             const ExecutionContext& execution) {
-    return execution.caches.worlds(world_key(params), [&] {
+                             const ExecutionContext& execution, const SharedEdits& edits) {
+    return execution.caches.worlds(world_key(params, edits), [&] {
         return std::make_shared<const World>(world_of(params, lookup_in(atlas),
                                                       ground_of_world(params, execution.caches),
-                                                      execution.parallel));
+                                                      execution.parallel, edits));
     });
 }
 
 std::optional<Job> world_job(Store& store, const WorldParams& params,
-                             std::shared_ptr<const Atlas> atlas) {
-    std::string key = world_key(params);
+                             std::shared_ptr<const Atlas> atlas, const SharedEdits& edits) {
+    std::string key = world_key(params, edits);
     if (store.worlds.cache().find(key)) return std::nullopt;
     Cost cost = cost_of_world(params);
     if (!store.grounds.cache().find(ground_key(params))) cost += cost_of_ground(params);
-    auto run = [&store, params, atlas = std::move(atlas)](const std::stop_token& stop,
-                                                          const Observer& observer,
-                                                          const Parallel& parallel) {
+    auto run = [&store, params, edits, atlas = std::move(atlas)](const std::stop_token& stop,
+                                                                 const Observer& observer,
+                                                                 const Parallel& parallel) {
         observer(Step::resolve);
         JobContext job(store, stop, observer, parallel);
-        static_cast<void>(world_of_request(params, *atlas, job.execution()));
+        static_cast<void>(world_of_request(params, *atlas, job.execution(), edits));
         return Response();
     };
     return Job{std::move(key), cost, std::move(run), true};
@@ -158,14 +158,15 @@ std::optional<Job> world_job(Store& store, const WorldParams& params,
 
 void make_of_world(Resource& resource, const WorldParams& params,
                    const std::shared_ptr<const Atlas>& atlas,
-                   std::function<Body(const SharedWorld&, const ExecutionContext&)> make) {
-    resource.prerequisite = [params, atlas](Store& store) {
-        return world_job(store, params, atlas);
+                   std::function<Body(const SharedWorld&, const ExecutionContext&)> make,
+                   const SharedEdits& edits) {
+    resource.prerequisite = [params, atlas, edits](Store& store) {
+        return world_job(store, params, atlas, edits);
     };
-    resource.make = [params, atlas, make = std::move(make)](JobContext& job) {
+    resource.make = [params, atlas, edits, make = std::move(make)](JobContext& job) {
         const ExecutionContext& execution = job.execution();
         execution.observer(Step::resolve);
-        return make(world_of_request(params, *atlas, execution), execution);
+        return make(world_of_request(params, *atlas, execution, edits), execution);
     };
 }
 

@@ -56,17 +56,20 @@ struct WorldTimeRead {
 
 /// Returns a world, from its cache or computed.
 [[nodiscard]] SharedWorld world_of_request(const WorldParams& params, const Atlas& atlas,
-                                           const ExecutionContext& execution);
+                                           const ExecutionContext& execution,
+                                           const SharedEdits& edits = nullptr);
 
 /// Returns the job that computes a world with its ground, if it is not cached.
 [[nodiscard]] std::optional<Job> world_job(Store& store, const WorldParams& params,
-                                           std::shared_ptr<const Atlas> atlas);
+                                           std::shared_ptr<const Atlas> atlas,
+                                           const SharedEdits& edits = nullptr);
 
 /// Lets a resource be made of a world, which a job of its own computes before if it is not cached.
 ///
 /// make  called when the world is there, in Step::resolve
 void make_of_world(Resource& resource, const WorldParams& params,
                    const std::shared_ptr<const Atlas>& atlas,
-                   std::function<Body(const SharedWorld&, const ExecutionContext&)> make);
+                   std::function<Body(const SharedWorld&, const ExecutionContext&)> make,
+                   const SharedEdits& edits = nullptr);
 
 }  // namespace sporeprint::api

@@ -17,6 +17,7 @@
 #include "api/products/resource.h"
 #include "api/products/trees.h"
 #include "api/products/word_list.h"
+#include "api/products/worlds/part_request.h"
 #include "api/products/worlds/parts.h"
 #include "api/products/worlds/worlds.h"
 #include "core/grow/world/placements.h"
@@ -61,7 +62,7 @@ struct PlacementParams {
 };
 static_assert(well_described<PlacementParams>());
 
-/// Placements that a URL names.
+/// Placements that a URL or a body names.
 struct PlacementRequest {
     WorldRequest world;
     WorldTimeRead time;
@@ -105,12 +106,11 @@ std::vector<std::string> read_species(std::string_view text, const WorldParams& 
 
 PlacementRequest read_placements(const RouteCall& call, ValidationErrors& errors) {
     PlacementRequest request;
-    request.world = read_world(call.captured[0], *call.context.atlas, errors);
-    request.time = read_world_day(call.captured[1], "placements are of one day; add it", errors);
+    const PartRequest part = read_part(call, errors);
+    request.world = part.world;
+    request.time = read_world_day(part.time, "placements are of one day; add it", errors);
     PlacementParams params;
-    std::vector<Problem> problems;
-    read_query(query_of_world(call.target, errors), params, problems);
-    errors.add(400, problems);
+    read_params(part, params, errors);
     const WorldParams& world = request.world.spec.params;
     request.box = read_box(params.bbox, extent_of(world), usual_box, errors);
     request.kinds =
@@ -123,6 +123,7 @@ PlacementRequest read_placements(const RouteCall& call, ValidationErrors& errors
             "has " + number_text(std::round(request.area())) + " m²; at most " + number_text(most) +
                 " are listed in one request" +
                 (most < most_area ? ", and 1000000 without fungi (kinds=tree+snag+log)" : ""));
+    finish_reading(call, errors);
     return request;
 }
 
@@ -381,21 +382,27 @@ std::string path_of(const PlacementRequest& request, PlacementFile file) {
     return '/' + request.time.text() + "/placements" + ending_of(file);
 }
 
-Value head_of(const Context& context, const PlacementRequest& request, const std::string& world) {
+/// Returns the addresses of the files; none if the world has edits.
+Value links_of(const Context& context, const PlacementRequest& request, const std::string& world) {
+    if (request.world.edits) return Value::object();
     const auto link = [&](PlacementFile file) {
         return context.responses.link(
             with_query(folder_of(Worlds::all) + world + path_of(request, file), request.query()));
     };
+    return Value::object()
+        .set("self", link(PlacementFile::json))
+        .set("csv", link(PlacementFile::csv))
+        .set("bin", link(PlacementFile::bin));
+}
+
+Value head_of(const Context& context, const PlacementRequest& request, const std::string& world) {
     const WorldBox& box = request.box;
     return Value::object()
         .set("world", world)
         .set("time", request.time.text())
         .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
         .set("axes", "x to the east, y up, z to the south, metres from the centre of the world")
-        .set("links", Value::object()
-                          .set("self", link(PlacementFile::json))
-                          .set("csv", link(PlacementFile::csv))
-                          .set("bin", link(PlacementFile::bin)));
+        .set("links", links_of(context, request, world));
 }
 
 Placements placements_of(const PlacementRequest& request, const World& world, const Atlas& atlas,
@@ -444,7 +451,8 @@ Plan plan_file(RouteCall& call, PlacementFile file) {
                     break;
             }
             return Body{slice_of(json_of(placements, names, head_of(context, *request, text)))};
-        });
+        },
+        request->world.edits);
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 

@@ -12,6 +12,7 @@
 #include "api/products/pictures.h"
 #include "api/products/resource.h"
 #include "api/products/word_list.h"
+#include "api/products/worlds/part_request.h"
 #include "api/products/worlds/parts.h"
 #include "api/products/worlds/worlds.h"
 #include "core/grow/world/plot_of_world.h"
@@ -158,7 +159,7 @@ struct PlotPictureParams {
 };
 static_assert(well_described<PlotPictureParams>());
 
-/// A plot that a URL names.
+/// A plot that a URL or a body names.
 struct PlotRequest {
     WorldRequest world;
     WorldTimeRead time;
@@ -193,12 +194,11 @@ void check_place(const PlotRequest& request, ValidationErrors& errors) {
 
 PlotRequest read_plot(const RouteCall& call, Product file, ValidationErrors& errors) {
     PlotRequest request;
-    request.world = read_world(call.captured[0], *call.context.atlas, errors);
-    request.time = read_world_day(call.captured[1], "a plot is of one day; add it", errors);
-    std::vector<Problem> problems;
-    const auto query = query_of_world(call.target, errors);
+    const PartRequest part = read_part(call, errors);
+    request.world = part.world;
+    request.time = read_world_day(part.time, "a plot is of one day; add it", errors);
     const auto read = [&](auto& params) {
-        read_query(query, params, problems);
+        read_params(part, params, errors);
         without_negative_zero(params);
         request.layers =
             read_words<PlotLayer, plot_layer_count>(params.layers.view(), "layers", errors);
@@ -210,8 +210,8 @@ PlotRequest read_plot(const RouteCall& call, Product file, ValidationErrors& err
     } else {
         read(request.params);
     }
-    errors.add(400, problems);
     if (errors.empty()) check_place(request, errors);
+    finish_reading(call, errors);
     return request;
 }
 
@@ -316,10 +316,9 @@ std::string path_of(const PlotRequest& request, Product file) {
     return '/' + request.time.text() + "/plot" + ending_of(file);
 }
 
-Value describe(const Context& context, const PlotRequest& request, const WorldPlot& plot,
-               const std::string& world) {
-    const WorldBox box = request.box();
-    const WorldTime time = request.time.noon();
+/// Returns the addresses of the files of a plot; none if its world has edits.
+Value links_of(const Context& context, const PlotRequest& request, const std::string& world) {
+    if (request.world.edits) return Value::object();
     const auto link = [&](Product file) {
         return context.responses.link(with_query(
             folder_of(Worlds::all) + world + path_of(request, file), query_text(request.params)));
@@ -333,6 +332,16 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
             folder_of(Worlds::all) + world + path_of(request, Product::png), query_text(picture)));
     };
     return Value::object()
+        .set("self", link(Product::json))
+        .set("model", link(Product::glb))
+        .set("picture", link_of_picture());
+}
+
+Value describe(const Context& context, const PlotRequest& request, const WorldPlot& plot,
+               const std::string& world) {
+    const WorldBox box = request.box();
+    const WorldTime time = request.time.noon();
+    return Value::object()
         .set("world", world)
         .set("time", request.time.text())
         .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
@@ -340,10 +349,7 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
         .set("trees", trees_on(plot, box, time))
         .set("dead_wood", dead_on(plot, box, time))
         .set("fruit_bodies", bodies_on(context, plot, time))
-        .set("links", Value::object()
-                          .set("self", link(Product::json))
-                          .set("model", link(Product::glb))
-                          .set("picture", link_of_picture()));
+        .set("links", links_of(context, request, world));
 }
 
 Plan plan_file(RouteCall& call, Product file) {
@@ -369,7 +375,7 @@ Plan plan_file(RouteCall& call, Product file) {
                 return Body{slice_of(dump(describe(context, *request, *plot, world)))};
             }
             Extras extras;
-            extras.canonical = context.responses.link(address);
+            if (!address.empty()) extras.canonical = context.responses.link(address);
             if (file == Product::png) {
                 const PlotPictureParams& picture = request->picture;
                 const StandingCamera camera =
@@ -386,7 +392,8 @@ Plan plan_file(RouteCall& call, Product file) {
             }
             return grow_plot(plot->content, options_of(*request), *context.atlas, extras, execution)
                 .glb;
-        });
+        },
+        request->world.edits);
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 

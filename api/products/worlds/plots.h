@@ -7,7 +7,7 @@
 
 namespace sporeprint::api {
 
-/// Handles GET /v1/worlds/{world}/{time}/plot.glb, .json and .png.
+/// Handles GET /v1/worlds/{world}/{time}/plot.glb, .json and .png, and POST /v1/worlds/plot.glb, .json and .png.
 template <Product File>
 Plan plan_plot(RouteCall& call);
 

@@ -9,6 +9,7 @@
 #include "api/products/worlds/description.h"
 #include "api/products/worlds/limits.h"
 #include "api/products/worlds/maps.h"
+#include "api/products/worlds/part_request.h"
 #include "api/products/worlds/placements.h"
 #include "api/products/worlds/plots.h"
 #include "api/products/worlds/seasons.h"
@@ -41,6 +42,81 @@ constexpr Route routes[] = {
          [](const DocumentInputs&) {
              return from_preset<WorldPreset>(schema_document<WorldParams>("Parameters of a world"));
          }},
+    // Before /v1/worlds/{world}.json, which has the form of some of them.
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/plot.glb",
+     .id = "post_plot",
+     .summary = "A piece of a world from a body, which may also have ecologies, founders and masks "
+                "of its own.",
+     .media_type = "model/gltf-binary",
+     .body_type = json,
+     .most_body = most_part_body,
+     .request_body = "plot_order",
+     .plan = plan_plot<Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/plot.json",
+     .id = "post_plot_description",
+     .summary = "What stands, lies and grows on it.",
+     .media_type = json,
+     .body_type = json,
+     .most_body = most_part_body,
+     .response_schema = "world_plot",
+     .request_body = "plot_order",
+     .plan = plan_plot<Product::json>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/plot.png",
+     .id = "post_plot_picture",
+     .summary = "A picture of it.",
+     .media_type = "image/png",
+     .body_type = json,
+     .most_body = most_part_body,
+     .request_body = "plot_picture_order",
+     .plan = plan_plot<Product::png>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/placements.csv",
+     .id = "post_placements",
+     .summary = "Where things stand in a world from a body, a line each.",
+     .media_type = "text/csv",
+     .body_type = json,
+     .most_body = most_part_body,
+     .request_body = "placement_order",
+     .plan = plan_placements<PlacementFile::csv>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/placements.json",
+     .id = "post_placement_list",
+     .summary = "The same as JSON.",
+     .media_type = json,
+     .body_type = json,
+     .most_body = most_part_body,
+     .response_schema = "world_placements",
+     .request_body = "placement_order",
+     .plan = plan_placements<PlacementFile::json>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/maps/{map}.png",
+     .id = "post_map",
+     .summary = "A map of a world from a body.",
+     .media_type = "image/png",
+     .body_type = json,
+     .most_body = most_part_body,
+     .request_body = "map_order",
+     .plan = plan_map<MapFile::png>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/worlds/maps/{map}.json",
+     .id = "post_map_description",
+     .summary = "What its numbers mean.",
+     .media_type = json,
+     .body_type = json,
+     .most_body = most_part_body,
+     .response_schema = "world_map",
+     .request_body = "map_order",
+     .plan = plan_map<MapFile::json>},
     {.kind = RouteKind::product,
      .method = "GET",
      .pattern = "/v1/worlds/{world}.json",
@@ -277,6 +353,20 @@ void add_schemas(Value& schemas, const Atlas&) {
                                  {"most_soil_water_mm", number}}));
 }
 
+void add_bodies(Value& bodies, const Atlas& atlas) {
+    const auto add = [&](const char* name, const char* what, Value params) {
+        bodies.set(name,
+                   json_body(std::string(what) +
+                                 " of a world on a day, which may have ecologies, founders "
+                                 "and masks of its own.",
+                             part_body_schema(atlas, std::move(params)), part_body_example(atlas)));
+    };
+    add("plot_order", "A plot", plot_query_schema(atlas));
+    add("plot_picture_order", "A picture of a plot", plot_picture_query_schema(atlas));
+    add("placement_order", "Placements", placement_query_schema(atlas));
+    add("map_order", "A map", map_query_schema(atlas));
+}
+
 }  // namespace
 
 const RouteGroup world_routes = {
@@ -287,6 +377,7 @@ const RouteGroup world_routes = {
     .routes = routes,
     .add_links = add_links,
     .add_schemas = add_schemas,
+    .add_bodies = add_bodies,
     .add_parameters = add_parameters,
 };
 

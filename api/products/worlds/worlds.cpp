@@ -129,6 +129,10 @@ Resource world_resource(const Context& context, const WorldRequest& requested,
     resource.address = with_query(folder_of(Worlds::all) + text + ending, query);
     resource.key = Worlds::one + with_query(ending, query) + ' ' + resource.version + '\n' +
                    requested.spec.preset + '\n' + canonical_text(requested.spec.params);
+    if (requested.edits) {
+        resource.address.clear();
+        resource.key += '\n' + requested.edits->text;
+    }
     resource.type = json;
     resource.requested_version = requested.version;
     return resource;

@@ -13,6 +13,7 @@
 #include "api/products/resource.h"
 #include "core/atlas/atlas.h"
 #include "core/params/canonical.h"
+#include "core/world/world_edits.h"
 #include "core/world/world_params.h"
 
 namespace sporeprint::api {
@@ -40,10 +41,11 @@ struct Worlds {
     }
 };
 
-/// A world that a URL names, and the version token of the request.
+/// A world that a URL or a body names, and the version token of the request.
 struct WorldRequest {
     WorldSpec spec;
     std::optional<std::string> version;
+    SharedEdits edits{};  ///< of a body; null if there are none
 };
 
 /// Reads the {world} of a URL: "beech,seed=7,climate.rain=600,v=35-1a2b3c4d". Errors name the parameters of the text,
@@ -61,7 +63,8 @@ struct WorldRequest {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> query_of_world(
     const Target& target, ValidationErrors& errors);
 
-/// Returns the JSON resource of a world that has an ending, such as "/weather.json", and a canonical query.
+/// Returns the JSON resource of a world that has an ending, such as "/weather.json", and a canonical query. It has no
+/// address if the world has edits.
 [[nodiscard]] Resource world_resource(const Context& context, const WorldRequest& requested,
                                       const std::string& ending, const std::string& query);
 

@@ -257,6 +257,24 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await client.HEAD("/v1/worlds/{world}/{time}/limits.json", spot);
     const { data: limits } = await client.GET("/v1/worlds/{world}/{time}/limits.json", spot);
     if (!limits?.species[0]?.why) throw new Error("it is not said what limits a species");
+    const edited = {
+        world: "meadow,extent=256", time: "y80d270",
+        ecology: { marasmius_oreades: { months: [7, 8, 9, 10] } },
+        founders: [{ species: "marasmius_oreades", x: 3, y: -4.5, year: 0 }],
+        masks: { fungi: "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg+M/wvwEABoACf2fsDmUAAAAASUVORK5CYII=" },
+    };
+    const smallPlot = { size: 4, texture_size: 256 } as const;
+    await client.POST("/v1/worlds/plot.glb", { body: { ...edited, ...smallPlot }, ...binary });
+    const { data: onOwn } = await client.POST("/v1/worlds/plot.json", { body: { ...edited, size: 4 } });
+    if (onOwn?.bbox[2] !== 2) throw new Error("the plot of an edited world is not described");
+    await client.POST("/v1/worlds/plot.png", { body: { ...edited, ...smallPlot, width: 96, height: 64 }, ...binary });
+    await client.POST("/v1/worlds/placements.csv", { body: { ...edited, bbox: "-8,-8,8,8" }, ...text });
+    const { data: ownRows } = await client.POST("/v1/worlds/placements.json", { body: { ...edited, bbox: "-8,-8,8,8" } });
+    if (ownRows?.count !== ownRows?.placements.length) throw new Error("the rows of an edited world are not counted");
+    const spores = { params: { path: { map: "spores" } } } as const;
+    await client.POST("/v1/worlds/maps/{map}.png", { ...spores, body: { ...edited, size: 65 }, ...binary });
+    const { data: spread } = await client.POST("/v1/worlds/maps/{map}.json", { ...spores, body: { ...edited, size: 65 } });
+    if (spread?.width !== 65) throw new Error("the map of an edited world is not described");
 
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {

@@ -18,6 +18,9 @@ export function random(state) {
 /** Expensive parameters get small values. */
 const cheap = { texture_size: [128, 128, 256], side: [16, 128], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2], seeds: [1, 2], levels: [[3], [2, 3]], width: [16, 32, 48], height: [16, 32, 48] };
 
+/** A mask of 2 x 2 pixels. */
+const quarters = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAAAAABX3VL4AAAADklEQVR4nGNg+M/wvwEABoACf2fsDmUAAAAASUVORK5CYII=";
+
 export class Generator {
     constructor(document, lists, dice) {
         Object.assign(this, { document, lists, dice });
@@ -40,6 +43,12 @@ export class Generator {
         }
         if ("const" in schema) return schema.const;
         if (schema.enum) return dice.pick(schema.enum);
+        // Of a body for a part of a world.
+        if (name === "world" && schema.type === "string") return dice.pick(["meadow,extent=256", "meadow,extent=256,fungi.abundance=2"]);
+        if (name === "time" && schema.type === "string") return dice.pick(["y80d270", "y200d365"]);
+        if (name === "founders") return dice.pick([[], [{ species: "marasmius_oreades", x: 3, y: -4.5, year: 20 }]]);
+        if (name === "ecology" && schema.additionalProperties?.properties) return dice.pick([{}, { marasmius_oreades: { months: [7], genet: { speed: 0.3 } } }]);
+        if (name === "masks") return dice.pick([{}, { fungi: quarters }, { trees: quarters, marasmius_oreades: quarters }]);
         if ((name === "a" || name === "b") && schema.oneOf) return dice.pick(dice.pick(this.lists.families)); // a parent
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
         if (name === "lod" && schema.type === "string") return dice.pick(["0", "3"]);
