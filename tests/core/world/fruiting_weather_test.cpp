@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "tests/support/forest.h"
 #include "tests/support/fungi.h"
 
 namespace sporeprint::fruiting_weather_test {
