@@ -207,6 +207,15 @@ constexpr Route pages[] = {
      }},
     {.kind = RouteKind::page,
      .method = "GET",
+     .pattern = "/world",
+     .id = "world",
+     .summary = "The page that shows worlds: on any day, with maps, and why a fungus fruits or not.",
+     .media_type = html,
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->page(call.request, "world.html");
+     }},
+    {.kind = RouteKind::page,
+     .method = "GET",
      .pattern = "/assets/{name}",
      .id = "asset",
      .summary = "A file of the viewer page.",

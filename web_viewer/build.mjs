@@ -1,4 +1,4 @@
-// Bundles the pages into dist/: index.html, docs.html, editor.html, breed.html, hashed scripts and styles, favicon.svg.
+// Bundles the pages into dist/: index.html, docs.html, editor.html, breed.html, world.html, hashed scripts and styles, favicon.svg.
 // The server serves index.html at / and every other file at /assets/<name>. All links are relative,
 // so that the page can be served below a path prefix.
 import { readFile, rm, mkdir, writeFile, copyFile } from "node:fs/promises";
@@ -15,7 +15,7 @@ await mkdir(dist, { recursive: true });
 
 const result = await build({
     absWorkingDir: here,
-    entryPoints: { app: "src/main.ts", docs: "src/docs.ts", editor: "src/designer/main.ts", breed: "src/breed/main.ts" },
+    entryPoints: { app: "src/main.ts", docs: "src/docs.ts", editor: "src/designer/main.ts", breed: "src/breed/main.ts", world: "src/world/main.ts" },
     outdir: "dist",
     entryNames: "[name]-[hash]",
     assetNames: "[name]-[hash]",
@@ -34,7 +34,7 @@ for (const output of Object.keys(result.metafile.outputs)) {
     names[file.replace(/-[A-Z0-9]{8}(?=\.)/, "")] = file;
 }
 
-for (const page of ["index.html", "docs.html", "editor.html", "breed.html"]) {
+for (const page of ["index.html", "docs.html", "editor.html", "breed.html", "world.html"]) {
     const text = await readFile(path.join(source, page), "utf8");
     const linked = text.replace(/\{\{([a-z.]+)\}\}/g, (_, name) => {
         if (!names[name])

@@ -446,6 +446,7 @@ TEST(ServiceAssets, ThePageAndItsFilesAreServed) {
     write_file("docs.html", "<!doctype html><title>docs</title>");
     write_file("editor.html", "<!doctype html><title>editor</title>");
     write_file("breed.html", "<!doctype html><title>breed</title>");
+    write_file("world.html", "<!doctype html><title>world</title>");
     write_file("app-3F9A1C02.js", "let answer = 42;");
     write_file("favicon.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
     write_file(".hidden", "secret");
@@ -469,6 +470,7 @@ TEST(ServiceAssets, ThePageAndItsFilesAreServed) {
     EXPECT_NE(text_of(handle(service, get("/docs"))).find("docs"), std::string::npos);
     EXPECT_NE(text_of(handle(service, get("/editor"))).find("editor"), std::string::npos);
     EXPECT_NE(text_of(handle(service, get("/breed"))).find("breed"), std::string::npos);
+    EXPECT_NE(text_of(handle(service, get("/world"))).find("world"), std::string::npos);
     const Response script = handle(service, get("/assets/app-3F9A1C02.js"));
     EXPECT_EQ(header(script, "Content-Type"), "text/javascript; charset=utf-8");
     EXPECT_EQ(header(script, "Cache-Control"), "public, max-age=31536000, immutable");
@@ -499,6 +501,7 @@ TEST_F(ServiceTest, WithoutAPageTheRootGivesAHint) {
     expect_problem(ask("/docs"), 404);
     expect_problem(ask("/editor"), 404);
     expect_problem(ask("/breed"), 404);
+    expect_problem(ask("/world"), 404);
 }
 
 // --- Mushrooms --------------------------------------------------------------------------

@@ -52,6 +52,10 @@ const { outputFiles } = packages("esbuild").buildSync({
             "weights",
         ]
             .map((name) => `export * from "./${name}";`)
+            .concat(
+                ["fly_motion", "height_field", "map_colours", "plot_view", "richest_place", "season_curves", "view_address", "why_panel", "world_settings"]
+                    .map((name) => `export * as ${name} from "./world/${name}";`),
+            )
             .concat('export { Box3, Group, PerspectiveCamera, Vector3 } from "three";')
             .join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
@@ -1744,4 +1748,191 @@ test("an axis on which the stem would fold is straighter where a model is grown 
         assert.deepEqual(axis.map(({ y }) => y), button.axis.map(({ y }) => y));
     }
     assert.equal(page.isFolded({}), false);
+});
+
+const worldSchema = {
+    type: "object",
+    properties: {
+        seed: { type: "integer", minimum: 0, maximum: 4294967295, default: 1 },
+        extent: { type: "integer", enum: [256, 1024, 4096], default: 1024 },
+        climate: {
+            type: "object",
+            properties: { rain: { type: "number", minimum: 0, maximum: 3000, "x-default-from": "preset" } },
+        },
+        fungi: { type: "object", properties: { species: { type: "string", "x-default-from": "preset" } } },
+    },
+};
+const worldFields = page.groupsOf(worldSchema, "world").flatMap((group) => group.fields);
+
+test("the text of a world has its preset and what differs from it, in the order of the schema", () => {
+    const settings = new page.world_settings.WorldSettings(worldFields, "beech");
+    settings.set("fungi.species", "boletus_edulis+russula_emetica");
+    settings.set("seed", 7);
+    settings.set("climate.rain", 600);
+    assert.equal(settings.text, "beech,seed=7,climate.rain=600,fungi.species=boletus_edulis+russula_emetica");
+    const other = new page.world_settings.WorldSettings(worldFields, "spruce");
+    assert.deepEqual(other.read(settings.text, ["spruce", "beech"]), []);
+    assert.equal(other.text, settings.text);
+    other.set("extent", 1024);
+    other.choose("spruce");
+    assert.equal(other.text, "spruce,seed=7", "what replaced values of the preset is dropped");
+    assert.equal(other.extent, 1024);
+});
+
+test("what the text of a world gets wrong is named, and all else of it is used", () => {
+    const settings = new page.world_settings.WorldSettings(worldFields, "beech");
+    const rejected = settings.read("desert,seed=7,climate.rain=9000,moons=2,v=35-1a2b", ["beech"]);
+    assert.deepEqual(rejected.map(({ parameter }) => parameter), ["world", "climate.rain", "moons"]);
+    assert.equal(settings.text, "beech,seed=7");
+});
+
+test("the address of the page of worlds has all that is shown, and is read again", () => {
+    const { worldQuery, readWorldQuery, firstState } = page.view_address;
+    const state = {
+        ...firstState,
+        view: "fly",
+        x: -20.5,
+        y: 300,
+        year: 12,
+        day: 100,
+        size: 16,
+        hidden: new Set(["trees", "floor"]),
+        map: "spores",
+        species: "boletus_edulis",
+        look: [90, -12.5, 4],
+        why: [20.25, -5],
+    };
+    const query = worldQuery("beech,fungi.species=a+b", state);
+    const read = readWorldQuery(query);
+    assert.equal(read.world, "beech,fungi.species=a+b");
+    assert.deepEqual(read.state, state);
+    assert.deepEqual(read.rejected, []);
+    assert.deepEqual(readWorldQuery("").state, firstState);
+    const wrong = readWorldQuery("?day=366&year=1.5&x=far&view=swim&hide=sky&look=a&why=1");
+    assert.deepEqual(
+        wrong.rejected.map(({ parameter }) => parameter),
+        ["x", "year", "day", "view", "hide", "look", "why"],
+    );
+    assert.deepEqual(wrong.state, firstState);
+});
+
+test("a plot stays inside its world with all its sides, and its season is that of one square of 64 m", () => {
+    const { placeInside, seasonBox } = page.view_address;
+    assert.deepEqual(placeInside(600, -700, 1024, 10), { x: 507, y: -507 });
+    assert.deepEqual(placeInside(12.345, 0, 1024, 10), { x: 12.35, y: 0 });
+    assert.deepEqual(seasonBox(20, -5, 1024), [0, -64, 64, 0]);
+    assert.deepEqual(seasonBox(512, -512, 1024), [448, -512, 512, -448]);
+});
+
+test("days are dates, months and places of a graph", () => {
+    const { dateOf, monthOf, dayAtX, xOfDay } = page.season_curves;
+    assert.deepEqual([1, 31, 32, 270, 365].map(dateOf), ["1 Jan", "31 Jan", "1 Feb", "27 Sep", "31 Dec"]);
+    assert.deepEqual([1, 59, 60, 365].map(monthOf), [1, 2, 3, 12]);
+    const strip = { left: 30, right: 760, top: 0, bottom: 80 };
+    for (let day = 1; day <= 365; ++day) assert.equal(dayAtX(xOfDay(day, strip), strip), day);
+    assert.equal(dayAtX(-100, strip), 1);
+    assert.equal(dayAtX(9999, strip), 365);
+});
+
+test("lines of a season grow with the square root, up to the greatest number of all", () => {
+    const { rootLines, greatest, roundAbove, bars } = page.season_curves;
+    const series = [1, 4, 0].map((count) => Array.from({ length: 365 }, (_, index) => (index === 99 ? count : 0)));
+    assert.equal(greatest(series), 4);
+    assert.deepEqual([0, 3, 5, 11, 40, 620].map(roundAbove), [1, 3, 6, 12, 40, 800]);
+    const strip = { left: 0, right: 365, top: 0, bottom: 100 };
+    const [first, second, none] = rootLines(series, 4, strip);
+    assert.ok(first.includes("L99.5,50.0L"), "a quarter is half as high");
+    assert.ok(second.includes("L99.5,0.0L"));
+    assert.equal(none, "");
+    assert.equal(bars([0, 5], 10, strip), "M1.0,100.0v-50.0h0.80v50.0z");
+});
+
+test("the richest place has most species, not most fruit bodies", () => {
+    const { richestPlace } = page.richest_place;
+    const at = (x, y, species) => ({ species, translation: [x, 3, -y] });
+    const many = Array.from({ length: 40 }, (_, index) => at(-20 + (index % 7) / 10, 20, "a"));
+    const box = [-32, -32, 32, 32];
+    const place = richestPlace([...many, at(15, -12, "a"), at(16, -12, "b"), at(15, -13, "c"), at(15, -13, "d"), at(14, -12, "e"), at(15, -12, "f")], box, 10);
+    assert.ok(Math.abs(place.x - 15) <= 4.5 && Math.abs(place.y + 12) <= 4.5, JSON.stringify(place));
+    assert.equal(richestPlace([], box, 10), undefined);
+});
+
+test("heights between the points of a map are linear, and a ray comes down on them", () => {
+    const { HeightField, numbersOfBytes } = page.height_field;
+    assert.deepEqual([...numbersOfBytes(new Uint8Array([1, 2, 255, 0]).buffer)], [513, 255]);
+    // A plane that rises by ten metres from west to east, on three columns.
+    const field = new HeightField(Uint16Array.from([0, 32767.5, 65535, 0, 32767.5, 65535, 0, 32767.5, 65535]), 3, 0, 10, 100);
+    for (const [east, height] of [[-50, 0], [-25, 2.5], [0, 5], [50, 10], [90, 10]])
+        assert.ok(Math.abs(field.at(east, 7) - height) < 1e-3, `${east}`);
+    const hit = field.hit({ origin: { x: 0, y: 15, z: 10 }, direction: { x: 0, y: -Math.SQRT1_2, z: -Math.SQRT1_2 } });
+    assert.ok(Math.abs(hit.east) < 1e-6 && Math.abs(hit.north - 0) < 1e-2, JSON.stringify(hit));
+    assert.equal(field.hit({ origin: { x: 0, y: 15, z: 0 }, direction: { x: 0, y: 1, z: 0 } }), undefined);
+});
+
+test("one who walks stays at the height of eyes, one who flies above the ground and inside the world", () => {
+    const { moved, pushed, pushOf, turned, directionOf, eyeHeight, isMoving, speedAt } = page.fly_motion;
+    const terrain = { extent: 100, at: (x) => 0.5 * x };
+    const pose = { x: 0, y: 0, height: 3, heading: 90, pitch: -30 };
+    const walked = moved(pose, 4, 0, 0, true, terrain);
+    assert.ok(Math.abs(walked.x - 4) < 1e-9 && Math.abs(walked.y) < 1e-9);
+    assert.equal(walked.height, eyeHeight);
+    const flown = moved(pose, 2, 0, 0, false, terrain);
+    assert.ok(Math.abs(flown.x - 2 * Math.cos(Math.PI / 6)) < 1e-9, "along the view");
+    assert.equal(moved(pose, 100, 0, 0, false, terrain).height, 0.4, "not into the hill");
+    assert.equal(moved(pose, 1000, 0, 0, true, terrain).x, 49.5, "not out of the world");
+    assert.deepEqual(turned(pose, 300, -100).heading, 30);
+    assert.equal(turned(pose, 0, -100).pitch, -89);
+    const [east, up, south] = directionOf({ ...pose, pitch: 0 });
+    assert.ok(Math.abs(east - 1) < 1e-9 && Math.abs(up) < 1e-9 && Math.abs(south) < 1e-9);
+    assert.ok(isMoving("w") && isMoving("arrowleft") && !isMoving("x"));
+    const { push, turn } = pushOf(["w", "d", "arrowright"], true);
+    assert.deepEqual([push, turn], [{ ahead: 1, right: 1, up: 0, fast: true }, 70]);
+    const aslant = pushed({ ...pose, pitch: 0 }, push, 1, true, terrain);
+    assert.ok(Math.abs(Math.hypot(aslant.x, aslant.y) - speedAt(3, true, true)) < 1e-6, "aslant is not faster");
+});
+
+test("a map is coloured between its own least and greatest numbers, and pixels are places", () => {
+    const { rangeOf, paint, colourAt, rampOf, placeOnMap, shareOfMap } = page.map_colours;
+    const numbers = Uint16Array.from({ length: 1000 }, (_, index) => 1000 + index);
+    numbers[3] = 65535;
+    const [low, high] = rangeOf(numbers);
+    assert.ok(low <= 1005 && high >= 1990 && high < 2100, `${low}..${high}`);
+    assert.deepEqual(rangeOf(new Uint16Array(10).fill(7)), [7, 71]);
+    const out = new Uint8ClampedArray(8);
+    paint(Uint16Array.from([low, high]), [low, high], "height", out);
+    const ramp = rampOf("height");
+    assert.deepEqual([...out], [...colourAt(ramp, 0), 255, ...colourAt(ramp, 1), 255]);
+    assert.deepEqual(placeOnMap(0, 0, 1024), { x: -512, y: 512 });
+    assert.deepEqual(shareOfMap(-512, 512, 1024), { right: 0, down: 0 });
+});
+
+test("a clicked mushroom is the nearest one, and its address opens in the viewer", () => {
+    const { nearestBody, viewerAddress, plotAddress } = page.plot_view;
+    const body = (x, y) => ({ species: `at ${x}`, place_m: [x, y, 0] });
+    const bodies = [body(0, 0), body(1, 0), body(3, 0)];
+    assert.equal(nearestBody(bodies, 0.8, 0.1, 0.5), bodies[1]);
+    assert.equal(nearestBody(bodies, 2, 0, 0.5), undefined);
+    assert.equal(
+        viewerAddress("/base/v1/mushrooms/boletus_edulis.glb?seed=5&age=0.6"),
+        "./?species=boletus_edulis&seed=5&age=0.6",
+    );
+    assert.equal(viewerAddress("/v1/trees/birch.glb"), undefined);
+    const state = { ...page.view_address.firstState, x: 1, y: 2 };
+    assert.equal(
+        plotAddress("beech", state, ".glb", ["fungi"]),
+        "v1/worlds/beech/y80d270/plot.glb?x=1&y=2&size=10&layers=fungi&instancing=gpu",
+    );
+    assert.equal(plotAddress("beech", state, ".json"), "v1/worlds/beech/y80d270/plot.json?x=1&y=2&size=10");
+});
+
+test("reasons begin with the species that fruit best", () => {
+    const { byShare, verdict } = page.why_panel;
+    const species = [
+        { id: "c", share: 0, possible: false },
+        { id: "a", share: 0, possible: false },
+        { id: "b", share: 1, possible: true },
+        { id: "d", share: 0.2, possible: true },
+    ];
+    assert.deepEqual(byShare(species, (id) => id).map(({ id }) => id), ["b", "d", "a", "c"]);
+    assert.deepEqual(species.map(verdict), ["no", "no", "yes", "hardly"]);
 });

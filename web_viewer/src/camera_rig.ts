@@ -52,6 +52,11 @@ export class CameraRig {
         return this.camera.position.clone().sub(this.target).normalize();
     }
 
+    /** Pointer and keys move the camera; otherwise something else does. */
+    set enabled(on: boolean) {
+        this.controls.enabled = on;
+    }
+
     /** Limits how near and how far away the camera can be, metres. */
     limit(nearest: number, farthest: number): void {
         this.controls.minDistance = nearest;
@@ -105,7 +110,7 @@ export class CameraRig {
     }
 
     private onKey(event: KeyboardEvent): void {
-        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        if (!this.controls.enabled || event.ctrlKey || event.metaKey || event.altKey) return;
         if (event.key === "Home" || /^[1-9]$/.test(event.key)) {
             event.preventDefault();
             return this.events.chosen(event.key === "Home" ? "home" : Number(event.key) - 1);

@@ -18,7 +18,7 @@ export function saveFile(blob: Blob, name: string): void {
 }
 
 /** Copies a text; without the permission to do so it shows the text for copying by hand. */
-async function copy(text: string, label: string): Promise<void> {
+export async function copy(text: string, label: string): Promise<void> {
     try {
         await navigator.clipboard.writeText(text);
         notify(`${label} copied`);

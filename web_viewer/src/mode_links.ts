@@ -1,5 +1,5 @@
 // The navigation at the top: one link per product, one to the morph editor, and one each to the pages
-// of the designer and of breeding.
+// of the designer, of breeding and of worlds.
 import { byId, make } from "./dom";
 import { fewestMembers, mostMembers, readShares, sharesText } from "./mix";
 import { mushrooms, products, type Product } from "./products";
@@ -31,6 +31,7 @@ export class ModeLinks {
         }
         byId("modes").append(make("a", { id: "mode-designer", href: "editor" }, "From a photo"));
         byId("modes").append(make("a", { id: "mode-breed", href: "breed" }, "Breed"));
+        byId("modes").append(make("a", { id: "mode-world", href: "world" }, "Worlds"));
         this.morphLink.hidden = !product.canMorph;
         this.mark(this.link(product));
     }

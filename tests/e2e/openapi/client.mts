@@ -92,6 +92,7 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/docs", {}), client.GET("/docs", text));
     await both(client.HEAD("/editor", {}), client.GET("/editor", text));
     await both(client.HEAD("/breed", {}), client.GET("/breed", text));
+    await both(client.HEAD("/world", {}), client.GET("/world", text));
     const asset = { params: { path: { name: "favicon.svg" } } };
     await both(client.HEAD("/assets/{name}", asset), client.GET("/assets/{name}", { ...asset, ...text }));
     await both(client.HEAD("/livez", {}), client.GET("/livez", text));
