@@ -193,22 +193,20 @@ test("a click on the ground says what keeps each species from fruiting there, in
 });
 
 test("a click on a mushroom shows its species and the address of its model", async () => {
-    const { page, log } = await open(`${beech}&hide=trees,floor`);
-    const bodies = await page.evaluate(() => window.worlds.bodies());
-    assert.ok(bodies.length > 0);
-    let found = false;
-    for (const { x, y } of bodies) {
-        const { x: right, y: down } = await page.evaluate(([x, y]) => window.worlds.pixelOf(x, y), [x, y]);
-        const box = await page.locator("#canvas").boundingBox();
-        if (right < box.x + 5 || right > box.x + box.width - 5 || down < box.y + 70 || down > box.y + box.height - 70) continue;
-        for (const above of [3, 7]) {
-            await settled(page, () => page.mouse.click(right, down - above));
-            await page.waitForTimeout(50);
-            if ((found = await page.locator("#body-card").isVisible())) break;
-        }
-        if (found) break;
-    }
-    assert.ok(found, "a mushroom can be clicked");
+    const place = "x=114&y=27";
+    const [facts, centre] = await Promise.all(
+        ["plot", "limits"].map(async (file) => (await fetch(`${base}/v1/worlds/beech/y80d285/${file}.json?${place}`)).json()),
+    );
+    const cep = facts.fruit_bodies.find(({ species }) => species === "boletus_edulis");
+    const [x, y, height] = cep.place_m;
+    // The camera is a metre south of it, and looks at it.
+    const local = [x - 114, height - centre.place_m[2] + cep.above_ground_m, 27 - y];
+    const look = [local[0], local[1] + 0.7, local[2] + 1, local[0], local[1] + 0.04, local[2]];
+    const { page, log } = await open(`?world=beech&${place}&year=80&day=285&hide=trees,floor&look=${look.map((one) => one.toFixed(2))}`);
+    const above = await page.evaluate((at) => window.worlds.pixelOf(...at), [x, y, cep.above_ground_m + 0.03]);
+    await settled(page, () => page.mouse.click(above.x, above.y));
+    await page.locator("#body-card").waitFor();
+    assert.match(await page.locator("#body-card b").textContent(), /^Cep$/);
     const model = await page.locator("#body-card code").textContent();
     assert.match(model, /^\/v1\/mushrooms\/[a-z_]+\.glb\?seed=\d+&age=[\d.]+$/);
     assert.equal((await fetch(base + model, { method: "HEAD" })).status, 200);
@@ -263,16 +261,63 @@ test("a parameter that is changed makes another world, and a refused one is name
 
 test("layers go and come without a request, and the saved plot has those that are on", async () => {
     const { page, log } = await open();
+    const drawn = await page.evaluate(() => window.worlds.renderer.frames);
+    await page.locator("#canvas").press("ArrowLeft");
+    await page.waitForFunction((old) => window.worlds.renderer.frames > old, drawn, { timeout: patience });
     const before = await page.evaluate(() => window.worlds.renderer.triangles);
     log.requests.length = 0;
     await page.locator('[data-layer="trees"]').uncheck();
     await page.locator('[data-layer="floor"]').uncheck();
     await page.waitForFunction((old) => window.worlds.renderer.triangles < old, before, { timeout: patience });
-    assert.deepEqual(log.requests, []);
+    assert.deepEqual(log.requests.filter((url) => url.includes("/v1/")), []);
     assert.match(page.url(), /hide=trees,floor/);
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
     assert.match(download.suggestedFilename(), /\.glb$/);
     assert.ok(log.requests.at(-1).includes("layers=ground+fungi"));
+    assertQuiet(log);
+});
+
+test("one walks and flies through tiles, and a new day replaces the tiles of the fungi alone", async () => {
+    const query = "?world=beech,seed=7,extent=256&x=20&y=-5&year=80&day=270&view=walk";
+    const { page, log } = await openAlone(query, { width: 700, height: 520 });
+    const before = await shown(page);
+    for (const layer of ["ground", "trees", "floor"])
+        assert.equal(before[layer], `v1/worlds/beech,seed=7,extent=256/web/y80m9/${layer}/tileset.json`);
+    assert.equal(before.fungi, "v1/worlds/beech,seed=7,extent=256/web/y80d270/fungi/tileset.json");
+    assert.ok((await page.evaluate(() => window.worlds.renderer.triangles)) > 10_000);
+    log.requests.length = 0;
+    await settled(page, () => page.locator("#day").evaluate((slider) => {
+        slider.value = "273";
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+    }));
+    await page.waitForFunction(() => /y80d273/.test(window.worlds.shown().fungi), undefined, { timeout: patience });
+    assert.deepEqual({ ...(await shown(page)), fungi: "" }, { ...before, fungi: "" });
+    const tiles = log.requests.filter((url) => /\.(glb|subtree)$|tileset\.json$/.test(url));
+    assert.ok(tiles.length > 0 && tiles.every((url) => url.includes("/y80d273/fungi/")), tiles.join("\n"));
+    await settled(page, () => page.locator("#day").dispatchEvent("change"));
+    // W walks to the north, and the address follows.
+    await page.locator("#canvas").focus();
+    await page.keyboard.down("w");
+    await page.waitForTimeout(1200);
+    await page.keyboard.up("w");
+    await page.waitForFunction(() => window.worlds.state.y > -4.9, undefined, { timeout: patience });
+    await at(page, "ready");
+    const walked = await state(page);
+    assert.equal(walked.look[2], 1.6, "at the height of eyes");
+    assert.match(page.url(), /view=walk/);
+    await settled(page, () => page.locator('[data-view="fly"]').click());
+    await page.locator("#canvas").focus();
+    await page.keyboard.down("e");
+    await page.waitForTimeout(1200);
+    await page.keyboard.up("e");
+    await page.waitForFunction(() => window.worlds.state.look?.[2] > 4.2, undefined, { timeout: patience });
+    await settled(page, () => page.locator("#why-here").click());
+    assert.ok((await page.locator("#why-list li").count()) > 0);
+    await settled(page, () => page.locator("#map-frame").press("ArrowRight"));
+    assert.ok(Math.abs((await state(page)).x - walked.x - 2.56) < 0.1);
+    await settled(page, () => page.locator('[data-view="plot"]').click());
+    assert.match((await shown(page)).ground, /plot\.glb/);
+    await page.context().close();
     assertQuiet(log);
 });
 

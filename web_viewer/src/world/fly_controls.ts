@@ -3,6 +3,8 @@ import { eyeHeight, isMoving, moved, pushed, pushOf, speedAt, turned, type Pose,
 
 /** Degrees per pixel of a dragged pointer. */
 const degreesPerPixel = 0.16;
+/** A key that is pressed moves at once as far as in this time. */
+const tapSeconds = 0.1;
 /** A pointer that moved less than this has clicked, pixels. */
 export const clickReach = 5;
 
@@ -75,7 +77,9 @@ export class FlyControls {
         event.preventDefault();
         this.keys.add(key);
         this.fast = event.shiftKey;
-        this.events.moved();
+        // A key that is pressed only for a moment is a step, also where frames take longer than that.
+        if (event.repeat) this.events.moved();
+        else this.step(tapSeconds);
     }
 
     private onDrag(event: PointerEvent): void {

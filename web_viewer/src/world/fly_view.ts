@@ -45,6 +45,16 @@ interface TileStats {
     stats: { queued: number; downloading: number; parsing: number; failed: number };
 }
 
+/** Fetches a tileset or a tile. A busy server is requested again after the time that it names. */
+async function fetchData(url: string, options: RequestInit): Promise<unknown> {
+    const response = await send(url, options);
+    if (!url.endsWith("/tileset.json")) return response;
+    const tileset = (await response.json()) as { asset: { version: string } };
+    // The renderer warns of every tileset of version 1.1, although it knows all that these have of it.
+    tileset.asset.version = "1.0";
+    return tileset;
+}
+
 export class FlyView {
     private readonly shown = new Map<Layer, TileSet>();
     private readonly coming = new Map<Layer, TileSet>();
@@ -165,8 +175,7 @@ export class FlyView {
         const loader = new GLTFLoader(tiles.manager).setMeshoptDecoder(MeshoptDecoder);
         loader.register(this.meshes.plugin).register(translucency(new Set()));
         tiles.manager.addHandler(/\.glb$/, loader);
-        // A busy server is requested again after the time that it names.
-        tiles.registerPlugin({ name: "SPOREPRINT_requests", fetchData: (url: string, options: RequestInit) => send(url, options) });
+        tiles.registerPlugin({ name: "SPOREPRINT_requests", fetchData });
         tiles.addEventListener("load-model", () => this.stage.draw());
         tiles.addEventListener("needs-update", () => this.stage.draw());
         tiles.addEventListener("load-error", ({ error }) => {

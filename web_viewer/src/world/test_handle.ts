@@ -7,10 +7,10 @@ export interface WorldHandle {
     readonly state: WorldState;
     /** Addresses of the files or tiles that are on the stage, by layer. */
     shown: () => Record<Layer, string>;
-    /** Where a place of the ground is in the window, pixels. */
-    pixelOf: (x: number, y: number) => { x: number; y: number };
+    /** Where a place is in the window, pixels; `above` the ground, metres. */
+    pixelOf: (x: number, y: number, above?: number) => { x: number; y: number };
     /** Places of the fruit bodies of the plot, and their species. */
-    bodies: () => { species: string; x: number; y: number }[];
+    bodies: () => { species: string; x: number; y: number; above: number }[];
     /** Draw calls and triangles of the last frame, and frames so far. */
     readonly renderer: { calls: number; triangles: number; frames: number };
 }
@@ -27,8 +27,9 @@ export function installHandle(page: WorldPage): void {
             return page.state;
         },
         shown: () => page.shown,
-        pixelOf: (x, y) => page.pixelOf(x, y),
-        bodies: () => page.bodies.map(({ species, place_m: [x, y] }) => ({ species, x, y })),
+        pixelOf: (x, y, above = 0) => page.pixelOf(x, y, above),
+        bodies: () =>
+            page.bodies.map(({ species, place_m: [x, y], above_ground_m: above }) => ({ species, x, y, above })),
         get renderer() {
             return page.rendering;
         },

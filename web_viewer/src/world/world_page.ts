@@ -186,15 +186,18 @@ export class WorldPage {
         return { calls, triangles, frames: this.stage.frames };
     }
 
-    pixelOf(x: number, y: number): { x: number; y: number } {
+    /** Returns where a place above the ground is in the window, pixels. */
+    pixelOf(x: number, y: number, above: number): { x: number; y: number } {
         const { canvas, camera, isWide } = this.stage;
+        const [right, south] = [x - this.plotPlace.x, this.plotPlace.y - y];
+        const ground = this.plot.model("ground");
         const at = isWide
-            ? new Vector3(x, this.heights?.at(x, y) ?? 0, -y)
-            : new Vector3(x - this.plotPlace.x, this.groundOfPlot(x - this.plotPlace.x, this.plotPlace.y - y), this.plotPlace.y - y);
+            ? new Vector3(x, (this.heights?.at(x, y) ?? 0) + above, -y)
+            : new Vector3(right, (ground ? this.stage.heightOf(ground, right, south) : 0) + above, south);
         camera.updateMatrixWorld();
         const { left, top, width, height } = canvas.getBoundingClientRect();
-        const { x: right, y: up } = at.project(camera);
-        return { x: left + ((right + 1) / 2) * width, y: top + ((1 - up) / 2) * height };
+        at.project(camera);
+        return { x: left + ((at.x + 1) / 2) * width, y: top + ((1 - at.y) / 2) * height };
     }
 
     private get terrain(): Terrain {
@@ -373,6 +376,7 @@ export class WorldPage {
             this.plot.show(world, state, isDragged);
         } else {
             this.fly.show(world, state, isDragged);
+            if (!this.fly.isSettled) this.showProgress({ stage: "growing" });
         }
         if (isDragged) return;
         void this.showHeights();

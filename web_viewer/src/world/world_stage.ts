@@ -158,6 +158,12 @@ export class WorldStage {
         return this.rayAt(clientX, clientY).intersectObjects([...objects], true)[0];
     }
 
+    /** Returns the height of an object at a place, 0 beside it. */
+    heightOf(object: Object3D, x: number, z: number): number {
+        this.raycaster.set(new Vector3(x, 500, z), new Vector3(0, -1, 0));
+        return this.raycaster.intersectObject(object, true)[0]?.point.y ?? 0;
+    }
+
     /** Requests a frame because something has changed; several requests at once make one frame. */
     draw(): void {
         if (this.requested) return;
