@@ -209,7 +209,8 @@ constexpr Route pages[] = {
      .method = "GET",
      .pattern = "/world",
      .id = "world",
-     .summary = "The page that shows worlds: on any day, with maps, and why a fungus fruits or not.",
+     .summary =
+         "The page that shows worlds: on any day, with maps, and why a fungus fruits or not.",
      .media_type = html,
      .plan = [](RouteCall& call) -> Plan {
          return call.context.documents->page(call.request, "world.html");

@@ -66,6 +66,15 @@ export class FlyControls {
         this.events.moved();
     }
 
+    /** Moves ahead while a button is held: fingers have no keys. */
+    hold(isHeld: boolean): void {
+        if (!isHeld) this.keys.delete("w");
+        else if (this.enabled) {
+            this.keys.add("w");
+            this.step(tapSeconds);
+        }
+    }
+
     private setByHand(pose: Pose): void {
         this.events.turned();
         this.set(pose);

@@ -36,10 +36,10 @@ export interface MapEvents {
     failed: (failure: RequestFailed) => void;
 }
 
-/** Returns a number of a map with three digits and its unit. */
+/** Returns a number of a map with its unit. */
 function readable(value: number, unit: string): string {
     const sign = { deg: "°", "": "" }[unit] ?? ` ${unit}`;
-    return `${Number(value.toPrecision(3))}${sign}`;
+    return `${Number(value.toPrecision(unit === "" ? 2 : 3))}${sign}`;
 }
 
 export class MapView {

@@ -277,6 +277,14 @@ export class WorldPage {
             byId("layers").append(make("label", { class: "check" }, box, ` ${layerLabels[layer]}`));
         }
         byId("play").addEventListener("click", () => this.play(this.playing === undefined));
+        const ahead = byId("ahead");
+        ahead.addEventListener("pointerdown", (event) => {
+            ahead.setPointerCapture(event.pointerId);
+            this.controls.hold(true);
+        });
+        // The stage keeps the focus, whose loss would end what is held.
+        ahead.addEventListener("mousedown", (event) => event.preventDefault());
+        for (const end of ["pointerup", "pointercancel"] as const) ahead.addEventListener(end, () => this.controls.hold(false));
         byId("home").addEventListener("click", () => this.lookHome());
         byId("find").addEventListener("click", () => void this.findFungi());
         byId("why-here").addEventListener("click", () => this.askWhy(this.placeInView()));
@@ -484,6 +492,7 @@ export class WorldPage {
         byId("download").hidden = !isPlot;
         byId("copy-resource").textContent = isPlot ? "Copy URL of the plot" : "Copy URL of the tiles";
         byId("found").hidden = !isPlot;
+        byId("ahead").hidden = isPlot;
         byId("keys").textContent = {
             plot: "Drag turns, the wheel comes nearer. A click says why.",
             walk: "W A S D or arrows walk, a drag looks round. A click says why.",
