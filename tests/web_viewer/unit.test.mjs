@@ -1917,11 +1917,13 @@ test("a clicked mushroom is the nearest one, and its address opens in the viewer
         "./?species=boletus_edulis&seed=5&age=0.6",
     );
     assert.equal(viewerAddress("/v1/trees/birch.glb"), undefined);
-    const state = { ...page.view_address.firstState, x: 1, y: 2 };
+    const state = { ...page.view_address.firstState, x: 1, y: 2, year: 80, day: 270 };
     assert.equal(
         plotAddress("beech", state, ".glb", ["fungi"]),
         "v1/worlds/beech/y80d270/plot.glb?x=1&y=2&size=10&layers=fungi&instancing=gpu",
     );
+    const saved = plotAddress("beech", state, ".glb", page.view_address.layers, "none");
+    assert.equal(saved, "v1/worlds/beech/y80d270/plot.glb?x=1&y=2&size=10");
     assert.equal(plotAddress("beech", state, ".json"), "v1/worlds/beech/y80d270/plot.json?x=1&y=2&size=10");
 });
 
