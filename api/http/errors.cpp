@@ -177,7 +177,8 @@ std::string parameter_name(std::string_view pointer, bool posted) {
     const std::string_view first = pointer.substr(1, pointer.find('/', 1) - 1);
     const bool of_params = is_field_of<MushroomParams>(first) || is_field_of<ColonyParams>(first) ||
                            is_field_of<TreeParams>(first) || is_field_of<SetParams>(first) ||
-                           is_field_of<trace::TraceSpec>(first);
+                           is_field_of<trace::TraceSpec>(first) || first == "world" ||
+                           first == "bbox";
     if (posted)
         return first == "model" || first == "mix" || first == "arcs" || of_params
                    ? std::string(pointer)

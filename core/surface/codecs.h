@@ -1,6 +1,7 @@
 // Image codecs: pixels to JPEG, WebP or PNG, and an uploaded PNG, JPEG or WebP file to RGB pixels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -70,6 +71,15 @@ using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 /// rgb  3 * width * height bytes
 [[nodiscard]] Bytes png_of_numbers(std::span<const std::uint8_t> rgb, int width, int height,
                                    const ImageTexts& texts);
+
+/// The colour of a number of a palette, sRGB.
+using PaletteColour = std::array<std::uint8_t, 3>;
+
+/// Encodes numbers of a palette of at most 256 colours as a PNG file of 8 bits.
+///
+/// numbers  width * height, each less than the number of colours
+[[nodiscard]] Bytes png_of_palette(std::span<const std::uint8_t> numbers, int width, int height,
+                                   std::span<const PaletteColour> palette, const ImageTexts& texts);
 
 /// Returns the number of pixels that decoded_picture() will decode, as the header of the file
 /// declares it; 0 if decoded_picture() refuses the file by its header.

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "core/math/elementary.h"
 #include "core/world/drainage.h"
 #include "core/world/horizon.h"
+#include "core/world/mycelia.h"
 #include "core/world/spread.h"
+#include "core/world/wind.h"
 
 namespace sporeprint {
 
@@ -92,12 +95,89 @@ double value_at(WorldMap map, const MapInputs& inputs, const Coordinate& x, cons
         case WorldMap::spores:
             return establishment_at(inputs.world->establishment[inputs.species], east, north,
                                     inputs.year);
+        case WorldMap::wind:
         case WorldMap::light:
         case WorldMap::canopy:
-            break;  // by blocks
+        case WorldMap::litter:
+        case WorldMap::moss:
+        case WorldMap::grass:
+        case WorldMap::probability:
+        case WorldMap::species:
+            break;  // by other functions
     }
     return 0.0;
 }
+
+/// Returns the mean speed of the wind at a place, m/s.
+double wind_speed_at(const WindRelief& relief, const WindRose& rose, double x, double y) {
+    double speed = 0.0;
+    for (const WindSector& sector : rose)
+        speed += sector.share * sector.speed * wind_at(relief, x, y, sector).factor;
+    return speed;
+}
+
+/// Returns one more than the number of the species that is most likely at a place, of equal ones the first; 0 if none
+/// is likely at all.
+double likeliest_at(const World& world, WorldPoint place, double light, int year) {
+    double most = 0.0;
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < world.species.size(); ++i) {
+        const double likely = probability_at(world, i, place, light, year);
+        if (likely <= most) continue;
+        most = likely;
+        number = i + 1;
+    }
+    return static_cast<double>(number);
+}
+
+double share_of(WorldMap map, const Cover& cover) {
+    if (map == WorldMap::moss) return cover.moss;
+    return map == WorldMap::grass ? cover.grass : cover.all_leaves() + cover.needles;
+}
+
+/// Returns the place at so many metres to the east and north, rounded down to units.
+WorldPoint point_at(double x, double y) {
+    return {static_cast<std::int32_t>(std::floor(x * units_of_metre)),
+            static_cast<std::int32_t>(std::floor(y * units_of_metre))};
+}
+
+/// The cover of the places of a block, row by row.
+class BlockCover {
+  public:
+    BlockCover(const MapInputs& inputs, CellIndex block)
+        : inputs_(inputs),
+          sources_(inputs.litter(block)),
+          wind_(sine_cosine(inputs.world->downwind())) {
+        conditions_.acidity = inputs.world->params.soil.acidity;
+        conditions_.day = inputs.day;
+        conditions_.has_needles = inputs.has_needles;
+    }
+    void begin_row(double y) {
+        near_.clear();
+        for (const LitterSource& source : sources_)
+            if (std::abs(source.y - y) <= most_litter_reach) near_.push_back(source);
+    }
+    /// light  share of the light of an open sky, below crowns
+    [[nodiscard]] Cover at(double x, double y, double light) {
+        const Ground& ground = inputs_.ground;
+        const Coordinate east = coordinate_at(ground.grid, x),
+                         north = coordinate_at(ground.grid, y);
+        const Place place = place_at(ground, east, north);
+        conditions_.light = light;
+        conditions_.wetness =
+            wetness_on(ground, wetness_index_at(ground, east, north), inputs_.world->autumn_water);
+        conditions_.slope = std::sqrt(place.east * place.east + place.north * place.north);
+        conditions_.stream = stream_at(ground, east, north);
+        conditions_.fall = litterfall(near_, x, y, wind_.cosine, wind_.sine);
+        return cover_of(conditions_);
+    }
+
+  private:
+    const MapInputs& inputs_;
+    std::vector<LitterSource> sources_, near_;
+    SineCosine wind_;
+    CoverConditions conditions_;
+};
 
 /// The columns or rows of a frame that belong to a row or column of blocks, from `first` to before `last`.
 struct Nodes {
@@ -119,21 +199,30 @@ void map_crowns(WorldMap map, const MapInputs& inputs, const MapFrame& frame, Ce
                crown.y < frame.y(rows.last - 1) - reach || crown.y > frame.y(rows.first) + reach;
     });
     const CanopyLight canopy(crowns);
-    for (int row = rows.first; row < rows.last; ++row)
-        for (int column = columns.first; column < columns.last; ++column) {
-            const double x = frame.x(column), y = frame.y(row);
-            const Coordinate east = coordinate_at(inputs.ground.grid, x),
-                             north = coordinate_at(inputs.ground.grid, y);
-            const Place place = place_at(inputs.ground, east, north);
-            const double value =
-                map == WorldMap::canopy
-                    ? canopy_at(crowns, x, y, place.height)
-                    : light_at(horizon_at(inputs.world->horizon, x, y), place, inputs.world->sun) *
-                          canopy.at(x, y, place.height, 1.0);
+    std::optional<BlockCover> cover;
+    if (is_of_cover(map)) cover.emplace(inputs, block);
+    const auto value_of = [&](double x, double y) {
+        const Place place = place_at(inputs.ground, coordinate_at(inputs.ground.grid, x),
+                                     coordinate_at(inputs.ground.grid, y));
+        if (map == WorldMap::canopy) return canopy_at(crowns, x, y, place.height);
+        const double light =
+            light_at(horizon_at(inputs.world->horizon, x, y), place, inputs.world->sun) *
+            canopy.at(x, y, place.height, 1.0);
+        if (cover) return share_of(map, cover->at(x, y, light));
+        if (map == WorldMap::probability)
+            return probability_at(*inputs.world, inputs.species, point_at(x, y), light,
+                                  inputs.year);
+        if (map == WorldMap::species)
+            return likeliest_at(*inputs.world, point_at(x, y), light, inputs.year);
+        return light;
+    };
+    for (int row = rows.first; row < rows.last; ++row) {
+        if (cover) cover->begin_row(frame.y(row));
+        for (int column = columns.first; column < columns.last; ++column)
             use(static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(column),
-                value);
-        }
+                value_of(frame.x(column), frame.y(row)));
+    }
 }
 
 /// Returns the nodes of a frame along one axis by blocks, in ascending numbers of nodes.
@@ -191,8 +280,34 @@ const char* doc_of(WorldMap map) {
             return "Height of the crowns of trees above the ground; 0 between them.";
         case WorldMap::spores:
             return "How far a species (species=) has spread: 1 where it is as common as it can be.";
+        case WorldMap::litter:
+            return "Share of the ground that fallen leaves and needles cover on a day.";
+        case WorldMap::moss:
+            return "Share of the ground that moss covers on a day, where no litter lies on it.";
+        case WorldMap::grass:
+            return "Share of the ground that grass covers on a day.";
+        case WorldMap::wind:
+            return "Mean speed of the wind 10 m above the ground: more on ridges, less in hollows.";
+        case WorldMap::probability:
+            return "How well a place suits a species (species=) by its light, water and soil, "
+                   "multiplied by how far the species has spread. What it lives on is not "
+                   "considered.";
+        case WorldMap::species:
+            return "Which species is most probable at a place, of those of the world: numbers of "
+                   "a palette, 0 where none is.";
     }
     return "";
+}
+
+double probability_at(const World& world, std::size_t species, WorldPoint place, double light,
+                      int year) {
+    const double established =
+        establishment_at(world.establishment[species], metres(place.x), metres(place.y), year);
+    if (!(established > 0.0)) return 0.0;
+    Site site = world.dim_site_at(place);
+    site.light = light;
+    return established * world.share_at(species, place) *
+           suitability(world.species[species].ecology, site);
 }
 
 MapRange range_of(WorldMap map, const Ground& ground) {
@@ -210,7 +325,15 @@ MapRange range_of(WorldMap map, const Ground& ground) {
         case WorldMap::sky:
         case WorldMap::light:
         case WorldMap::spores:
+        case WorldMap::litter:
+        case WorldMap::moss:
+        case WorldMap::grass:
+        case WorldMap::probability:
             return {0.0, 1.0, ""};
+        case WorldMap::wind:
+            return {0.0, 15.0, "m/s"};
+        case WorldMap::species:
+            return {0.0, 65535.0, ""};
         case WorldMap::canopy:
             return {0.0, highest_crown, "m"};
     }
@@ -238,6 +361,14 @@ std::vector<std::uint16_t> map_of(WorldMap map, const MapInputs& inputs, const M
     };
     if (has_crowns(map)) {
         each_block(map, inputs, frame, parallel, write);
+        return out;
+    }
+    if (map == WorldMap::wind) {
+        const WindRelief relief = wind_relief(inputs.ground.grid, inputs.ground.heights);
+        const WindRose rose = wind_rose(inputs.climate);
+        each_place(inputs.ground.grid, frame, parallel,
+                   [&](std::size_t i, const Coordinate&, const Coordinate&, double east,
+                       double north) { write(i, wind_speed_at(relief, rose, east, north)); });
         return out;
     }
     each_place(inputs.ground.grid, frame, parallel,

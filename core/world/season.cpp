@@ -23,8 +23,8 @@ constexpr int rest_days = 14;
 constexpr int most_flushes = 8;
 
 /// Bodies that may grow in one rectangle and near it in a year, and those that are drawn for them. Woods of the atlas
-/// have a hundredth of that.
-constexpr std::size_t most_sprouts = 300'000, most_drawn = 6'000'000;
+/// have a hundredth of that, a meadow at the greatest abundance a tenth.
+constexpr std::size_t most_sprouts = 600'000, most_drawn = 12'000'000;
 
 /// Less than this allows nothing: without rain, nothing fruits.
 constexpr double least_gate = 0.02;

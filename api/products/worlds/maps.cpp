@@ -54,8 +54,8 @@ struct MapParams {
                                     "world: -100,-50,100,50. The whole world without it."});
         visit(&M::species, Info{.name = "species",
                                 .most = 48,
-                                .doc = "Whose spores the map of spores shows: one of the fungi of "
-                                       "the world; the first without it."});
+                                .doc = "Of the maps of spores and of probability: which of the "
+                                       "fungi of the world they show; the first without it."});
     }
     bool operator==(const MapParams&) const = default;
 };
@@ -70,15 +70,20 @@ struct MapRequest {
     int day = 0;  ///< 0 for maps that do not change from day to day
     WorldBox box;
     int size = 0;
-    std::string species;  ///< of the map of spores
+    std::string species;  ///< of maps of one species
 
     [[nodiscard]] std::string name() const {
         return is_terrarium ? terrarium : sporeprint::name(map);
     }
+    [[nodiscard]] bool is_palette() const { return !is_terrarium && map == WorldMap::species; }
     [[nodiscard]] std::string time() const {
         return 'y' + std::to_string(year) + (day == 0 ? "" : 'd' + std::to_string(day));
     }
     [[nodiscard]] MapFrame frame() const { return frame_of(box, size); }
+    /// Returns the moment whose trees it shows: noon of its day, or any of the summer.
+    [[nodiscard]] WorldTime moment() const {
+        return day == 0 ? time_of(year, midsummer_day) : time_of(year, day) + ticks_of_day / 2;
+    }
 };
 
 /// Nanoseconds of one place of a map: its value, and its part of a PNG file.
@@ -102,10 +107,18 @@ PlaceCost place_cost_of(const MapRequest& request) {
         case WorldMap::sky:
         case WorldMap::spores:
             return {60, 14};
+        case WorldMap::wind:
+            return {400, 14};
         case WorldMap::light:
-            return {900, 29};
         case WorldMap::canopy:
+        case WorldMap::probability:
             return {900, 29};
+        case WorldMap::litter:
+        case WorldMap::moss:
+        case WorldMap::grass:
+            return {3000, 29};
+        case WorldMap::species:
+            return {1800, 6};
     }
     return {};
 }
@@ -158,13 +171,14 @@ void read_time(std::string_view text, MapRequest& request, ValidationErrors& err
     request.day = time.day;
 }
 
-/// Reads whose spores a map shows.
+/// Reads which species a map shows.
 std::string read_species(const MapRequest& request, std::string_view text,
                          ValidationErrors& errors) {
-    if (request.is_terrarium || request.map != WorldMap::spores) {
+    if (request.is_terrarium || !has_species(request.map)) {
         if (!text.empty())
             errors.add(422, "species",
-                       "is for the map of spores; this is the map of " + request.name());
+                       "is for the map of spores and that of probability; this is the map of " +
+                           request.name());
         return {};
     }
     std::vector<Problem> problems;
@@ -220,8 +234,15 @@ double soil_water_on(const MapRequest& request) {
 
 /// Returns how the value of a place follows from its number or its colour.
 const char* formula_of(const MapRequest& request) {
+    if (request.is_palette()) return "0 for none, otherwise the number of a species";
     return request.is_terrarium ? "256 R + G + B / 256 - 32768"
                                 : "from + (to - from) * number / 65535";
+}
+
+/// Returns the ids of the species of a world in their order.
+std::vector<std::string> species_of(const MapRequest& request) {
+    std::vector<Problem> ignored;
+    return species_in(request.world.spec.params.fungi.species, "species", ignored);
 }
 
 /// What the numbers of a map mean, beside it in a PNG file.
@@ -231,6 +252,12 @@ ImageTexts texts_of(const MapRequest& request, const MapRange& range, const std:
                         {"Software", "Sporeprint"},
                         {"Bounding box", text_of(request.box)},
                         {"Formula", formula_of(request)}};
+    if (request.is_palette()) {
+        const std::vector<std::string> ids = species_of(request);
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            texts.emplace_back("Species " + std::to_string(i + 1), ids[i]);
+        return texts;
+    }
     if (request.is_terrarium) {
         texts.emplace_back("Unit", "m");
         return texts;
@@ -249,12 +276,14 @@ struct MapSource {
 
 /// Returns the numbers of a map.
 std::vector<std::uint16_t> numbers_of(const MapRequest& request, const MapSource& source,
-                                      const ExecutionContext& execution) {
+                                      const Atlas& atlas, const ExecutionContext& execution) {
     MapInputs inputs{.ground = *source.ground,
                      .soil_water = soil_water_on(request),
                      .world = source.world.get(),
-                     .year = request.year};
-    if (request.map == WorldMap::spores) {
+                     .year = request.year,
+                     .day = std::max(request.day, 1),
+                     .climate = request.world.spec.params.climate};
+    if (has_species(request.map)) {
         const std::vector<std::string>& ids = source.world->species_ids;
         inputs.species = static_cast<std::size_t>(
             std::find(ids.begin(), ids.end(), request.species) - ids.begin());
@@ -265,13 +294,21 @@ std::vector<std::uint16_t> numbers_of(const MapRequest& request, const MapSource
         const double reach = shade_reach + 1.0;
         return crowns_in(*source.world, blocks_round(*source.world, box, execution).trees,
                          {box.west - reach, box.south - reach, box.east + reach, box.north + reach},
-                         time_of(request.year, midsummer_day));
+                         request.moment());
+    };
+    if (is_of_cover(request.map)) inputs.has_needles = needles_of(*source.world, atlas);
+    inputs.litter = [&](CellIndex block) {
+        const WorldBox box = box_of(block);
+        const double reach = most_litter_reach;
+        return litter_in(blocks_round(*source.world, box, execution).trees,
+                         {box.west - reach, box.south - reach, box.east + reach, box.north + reach},
+                         request.moment());
     };
     return map_of(request.map, inputs, request.frame(), execution.parallel);
 }
 
 Bytes png_of(const MapRequest& request, const MapSource& source, const std::string& world,
-             const ExecutionContext& execution) {
+             const Atlas& atlas, const ExecutionContext& execution) {
     const Ground& ground = *source.ground;
     const MapFrame frame = request.frame();
     const ImageTexts texts = texts_of(request, range_of(request.map, ground), world);
@@ -280,14 +317,18 @@ Bytes png_of(const MapRequest& request, const MapSource& source, const std::stri
         execution.observer(Step::pack);
         return png_of_numbers(rgb, frame.width, frame.height, texts);
     }
-    const std::vector<std::uint16_t> numbers = numbers_of(request, source, execution);
+    const std::vector<std::uint16_t> numbers = numbers_of(request, source, atlas, execution);
     execution.observer(Step::pack);
+    if (request.is_palette()) {
+        const std::vector<std::uint8_t> small(numbers.begin(), numbers.end());
+        return png_of_palette(small, frame.width, frame.height, colours_of_species, texts);
+    }
     return png_of_numbers(numbers, frame.width, frame.height, texts);
 }
 
-Bytes r16_of(const MapRequest& request, const MapSource& source,
+Bytes r16_of(const MapRequest& request, const MapSource& source, const Atlas& atlas,
              const ExecutionContext& execution) {
-    const std::vector<std::uint16_t> numbers = numbers_of(request, source, execution);
+    const std::vector<std::uint16_t> numbers = numbers_of(request, source, atlas, execution);
     execution.observer(Step::pack);
     Bytes out;
     out.reserve(2 * numbers.size());
@@ -326,6 +367,21 @@ std::string path_of(const MapRequest& request, const std::string& ending) {
     return '/' + request.time() + "/maps/" + request.name() + ending;
 }
 
+/// Returns the numbers of the map of species, with their species and their colours.
+Value palette_of(const MapRequest& request) {
+    std::vector<std::string> ids = species_of(request);
+    ids.insert(ids.begin(), "");
+    Value list = Value::array();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const auto& [r, g, b] = colours_of_species[i];
+        list.push(Value::object()
+                      .set("number", i)
+                      .set("species", ids[i])
+                      .set("colour", colour_text({r, g, b})));
+    }
+    return list;
+}
+
 Value describe(const Context& context, const MapRequest& request, const Ground& ground,
                const std::string& world) {
     const MapFrame frame = request.frame();
@@ -340,8 +396,9 @@ Value describe(const Context& context, const MapRequest& request, const Ground& 
         if (!request.is_terrarium) links.set("r16", link(MapFile::r16));
     }
     const WorldBox& box = request.box;
-    return Value::object()
-        .set("world", world)
+    Value body = Value::object();
+    if (request.is_palette()) body.set("palette", palette_of(request));
+    return body.set("world", world)
         .set("time", request.time())
         .set("map", request.name())
         .set("description", doc_of(request.map))
@@ -368,9 +425,9 @@ Slice slice_of_map(MapFile file, const Context& context, const MapRequest& reque
     };
     switch (file) {
         case MapFile::png:
-            return shared(png_of(request, source, world, execution));
+            return shared(png_of(request, source, world, *context.atlas, execution));
         case MapFile::r16:
-            return shared(r16_of(request, source, execution));
+            return shared(r16_of(request, source, *context.atlas, execution));
         case MapFile::json:
             break;
     }
@@ -446,21 +503,25 @@ Value map_names(MapFile file) {
 
 Value map_schema() {
     const Value text = typed("string"), number = typed("number"), whole = typed("integer");
-    return objects({{"world", text},
-                    {"time", text},
-                    {"map", text},
-                    {"description", text},
-                    {"unit", text},
-                    {"formula", text},
-                    {"from", number},
-                    {"to", number},
-                    {"rows", text},
-                    {"width", whole},
-                    {"height", whole},
-                    {"bbox", list_of(number)},
-                    {"step_m", list_of(number)},
-                    {"ground_step_m", number},
-                    {"links", map_of(text)}});
+    Value map = objects({{"world", text},
+                         {"time", text},
+                         {"map", text},
+                         {"description", text},
+                         {"unit", text},
+                         {"formula", text},
+                         {"from", number},
+                         {"to", number},
+                         {"rows", text},
+                         {"width", whole},
+                         {"height", whole},
+                         {"bbox", list_of(number)},
+                         {"step_m", list_of(number)},
+                         {"ground_step_m", number},
+                         {"links", map_of(text)}});
+    map.find("properties")
+        ->set("palette",
+              list_of(objects({{"number", whole}, {"species", text}, {"colour", text}})));
+    return map;
 }
 
 Value map_list(const ResponseBuilder& responses, const std::string& world) {

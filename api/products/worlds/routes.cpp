@@ -142,8 +142,9 @@ constexpr Route routes[] = {
      .method = "GET",
      .pattern = "/v1/worlds/{world}/{time}/maps/{map}.png",
      .id = "get_map",
-     .summary = "A map of a world: grey numbers of 16 bits, or heights in the colours of "
-                "Terrarium.",
+     .summary =
+         "A map of a world: grey numbers of 16 bits, heights in the colours of Terrarium, or "
+         "species in those of a palette.",
      .media_type = "image/png",
      .query_schema = map_query_schema,
      .plan = plan_map<MapFile::png>,

@@ -1,8 +1,11 @@
 #include "core/grow/world/plot_of_world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/world/leaf_stamp.h"
+#include "core/world/tree_growth.h"
 #include "core/world/world_habitat.h"
 
 namespace sporeprint {
@@ -30,6 +33,27 @@ std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> tree
         if (tree.lives_at(time) && tree.born < time && contains(box, tree.at))
             crowns.push_back(crown_of(world, tree, time));
     return crowns;
+}
+
+std::vector<LitterSource> litter_in(std::span<const StandTree> trees, const WorldBox& box,
+                                    WorldTime time) {
+    std::vector<LitterSource> sources;
+    for (const StandTree& tree : trees)
+        if (tree.lives_at(time) && tree.kind < most_kinds && contains(box, tree.at))
+            sources.push_back({metres(tree.at.x), metres(tree.at.y),
+                               crown_radius(height_at(tree, time)), tree.kind});
+    return sources;
+}
+
+std::array<bool, most_kinds> needles_of(const World& world, const Atlas& atlas) {
+    std::array<bool, most_kinds> out{};
+    for (std::size_t i = 0; i < std::min(most_kinds, world.stand.kinds.size()); ++i) {
+        const TreePreset* const tree = atlas.find_tree(world.stand.kinds[i].id);
+        const LeafPreset* const leaf =
+            tree ? atlas.find_leaf(params_of(*tree).look.leaf.id.string()) : nullptr;
+        out[i] = leaf && has_needles({leaf->shape, leaf->palette});
+    }
+    return out;
 }
 
 PlotContent content_of(const World& world, const PlotPlace& place, WorldTime time) {

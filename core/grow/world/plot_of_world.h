@@ -1,6 +1,7 @@
 // What a world has on a plot: its trees, its dead wood and its fruit bodies, ready to be shown.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include "core/grow/world/parts.h"
 #include "core/grow/world/plot.h"
 #include "core/world/canopy_light.h"
+#include "core/world/cover.h"
 
 namespace sporeprint {
 
@@ -23,6 +25,13 @@ struct PlotPlace {
 /// Returns the crowns of the trees that stand in a rectangle at a moment, in the order of the trees.
 [[nodiscard]] std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
                                            const WorldBox& box, WorldTime time);
+
+/// Returns from where litter falls of the trees that stand in a rectangle at a moment, in the order of the trees.
+[[nodiscard]] std::vector<LitterSource> litter_in(std::span<const StandTree> trees,
+                                                  const WorldBox& box, WorldTime time);
+
+/// Returns which kinds of the trees of a world have needles. Those that the atlas does not have have none.
+[[nodiscard]] std::array<bool, most_kinds> needles_of(const World& world, const Atlas& atlas);
 
 /// Returns what a plot shows of a world but for trees, dead wood, fruit bodies and light.
 ///

@@ -111,6 +111,20 @@ TEST(Codecs, PngOfNumbersHasThemAndItsTexts) {
     EXPECT_EQ(numbers_of(file), numbers);
 }
 
+TEST(Codecs, PngOfAPaletteHasTheColoursOfItsNumbers) {
+    const std::vector<PaletteColour> palette = {{1, 2, 3}, {250, 0, 128}, {9, 255, 7}};
+    Bytes numbers;
+    for (int i = 0; i < 20; ++i) numbers.push_back(static_cast<std::uint8_t>(i * i % 3));
+    const Bytes file = png_of_palette(numbers, 5, 4, palette, {{"Title", "kinds"}});
+    EXPECT_EQ(file[24], 8);
+    EXPECT_EQ(file[25], 3) << "colours by numbers";
+    const Picture picture = decoded_picture(file, "/image");
+    ASSERT_EQ(picture.rgb.size(), 60U);
+    for (std::size_t i = 0; i < 20; ++i)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            EXPECT_EQ(picture.rgb[3 * i + channel], palette[numbers[i]][channel]);
+}
+
 TEST(Codecs, JpegRoundTripsClosely) {
     const Bytes rgb = slope(64, 48);
     const Picture picture = decoded_picture(jpeg(rgb, 64, 48, 92, Chroma::full), "/image");

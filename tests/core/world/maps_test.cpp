@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <thread>
 #include <vector>
 
+#include "core/grow/world/plot_of_world.h"
 #include "core/world/drainage.h"
 #include "core/world/tree_growth.h"
 #include "core/world/world_habitat.h"
@@ -159,11 +161,18 @@ std::vector<Crown> crowns_round(CellIndex block) {
 }
 
 std::vector<double> values_of(WorldMap map, const MapFrame& frame, std::size_t species = 0) {
-    const MapInputs inputs{.ground = *wood().ground,
-                           .world = &wood(),
-                           .year = 80,
-                           .species = species,
-                           .crowns = crowns_round};
+    const MapInputs inputs{
+        .ground = *wood().ground,
+        .world = &wood(),
+        .year = 80,
+        .day = day_of_year(summer),
+        .species = species,
+        .climate = wood().params.climate,
+        .has_needles = needles_of(wood(), atlas()),
+        .crowns = crowns_round,
+        .litter = [](CellIndex block) {
+            return litter_in(trees_round(block).trees, {-1000.0, -1000.0, 1000.0, 1000.0}, summer);
+        }};
     const MapRange range = range_of(map, *wood().ground);
     std::vector<double> values;
     for (const std::uint16_t number : map_of(map, inputs, frame))
@@ -207,7 +216,9 @@ TEST(WorldMap, OfLightIsDarkestBelowCrowns) {
 }
 
 TEST(WorldMap, OfCrownsIsTheSameInEveryRectangle) {
-    for (const WorldMap map : {WorldMap::light, WorldMap::canopy}) {
+    for (const WorldMap map :
+         {WorldMap::light, WorldMap::canopy, WorldMap::litter, WorldMap::moss, WorldMap::grass,
+          WorldMap::wind, WorldMap::probability, WorldMap::species}) {
         const std::vector<double> west = values_of(map, frame_of({-16.0, -8.0, 0.0, 8.0}, 17)),
                                   east = values_of(map, frame_of({0.0, -8.0, 16.0, 8.0}, 17)),
                                   both = values_of(map, frame_of({-16.0, -16.0, 16.0, 16.0}, 33));
@@ -234,6 +245,85 @@ TEST(WorldMap, OfSporesIsTheEstablishmentOfASpecies) {
     }
 }
 
+TEST(WorldMap, OfTheCoverHasWhatPlotsHave) {
+    const MapFrame frame = frame_of({-8.0, -8.0, 8.0, 8.0}, 17);
+    const std::vector<double> litter = values_of(WorldMap::litter, frame),
+                              moss = values_of(WorldMap::moss, frame),
+                              grass = values_of(WorldMap::grass, frame);
+    const auto world = std::shared_ptr<const World>(std::shared_ptr<void>(), &wood());
+    const auto plot = plot_of_world(world, {0.0, 0.0, 16.0}, summer, parts().services);
+    const CoverField field = cover_of(plot->content, atlas());
+    double sum = 0.0;
+    for (int row = 0; row < 17; ++row)
+        for (int column = 0; column < 17; ++column) {
+            const Cover cover = field.at(frame.x(column), frame.y(row));
+            const auto i = static_cast<std::size_t>(row * 17 + column);
+            ASSERT_NEAR(litter[i], cover.all_leaves() + cover.needles, 1e-4);
+            ASSERT_NEAR(moss[i], cover.moss, 1e-4);
+            ASSERT_NEAR(grass[i], cover.grass, 1e-4);
+            ASSERT_LE(litter[i] + moss[i] + grass[i], 1.0 + 1e-4);
+            sum += litter[i];
+        }
+    EXPECT_GT(sum / (17 * 17), 0.3) << "leaves lie in a beech wood";
+}
+
+TEST(WorldMap, OfTheWindIsFasterOnRidges) {
+    const MapFrame frame = frame_of({-120.0, -120.0, 120.0, 120.0}, 61);
+    const std::vector<double> wind = values_of(WorldMap::wind, frame);
+    const double speed = wood().params.climate.wind_speed;
+    double sum = 0.0, highest = 0.0, lowest = 100.0;
+    const auto height = [&](std::size_t i) {
+        return place_at(*wood().ground, frame.x(static_cast<int>(i % 61)),
+                        frame.y(static_cast<int>(i / 61)))
+            .height;
+    };
+    std::size_t top = 0, bottom = 0;
+    for (std::size_t i = 0; i < wind.size(); ++i) {
+        sum += wind[i];
+        highest = std::max(highest, wind[i]);
+        lowest = std::min(lowest, wind[i]);
+        if (height(i) > height(top)) top = i;
+        if (height(i) < height(bottom)) bottom = i;
+    }
+    EXPECT_NEAR(sum / static_cast<double>(wind.size()), speed, 0.1 * speed);
+    EXPECT_GE(lowest, 0.5 * speed);
+    EXPECT_LE(highest, 1.5 * speed);
+    EXPECT_GT(wind[top], wind[bottom]);
+}
+
+TEST(WorldMap, OfProbabilityIsEstablishmentWhereAllSuits) {
+    const MapFrame frame = frame_of({-64.0, -64.0, 64.0, 64.0}, 33);
+    const std::vector<double> light = values_of(WorldMap::light, frame),
+                              likeliest = values_of(WorldMap::species, frame);
+    std::vector<double> best(light.size(), 0.0), number(light.size(), 0.0);
+    std::size_t suited = 0;
+    for (std::size_t species = 0; species < wood().species.size(); ++species) {
+        const std::vector<double> likely = values_of(WorldMap::probability, frame, species),
+                                  spores = values_of(WorldMap::spores, frame, species);
+        const Ecology& ecology = wood().species[species].ecology;
+        for (std::size_t i = 0; i < likely.size(); ++i) {
+            ASSERT_LE(likely[i], spores[i] + 1e-4);
+            const WorldPoint at{
+                static_cast<std::int32_t>(frame.x(static_cast<int>(i % 33)) * units_of_metre),
+                static_cast<std::int32_t>(frame.y(static_cast<int>(i / 33)) * units_of_metre)};
+            Site site = wood().site_at(at);
+            site.light = light[i];
+            const double suits = suitability(ecology, site);
+            ASSERT_NEAR(likely[i], spores[i] * suits, 1e-3);
+            suited += suits == 1.0 && spores[i] > 0.5 ? 1 : 0;
+            if (likely[i] > best[i]) {
+                best[i] = likely[i];
+                number[i] = static_cast<double>(species + 1);
+            }
+        }
+    }
+    EXPECT_GT(suited, 0U);
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < best.size(); ++i) same += likeliest[i] == number[i] ? 1 : 0;
+    // Two that differ by less than a number of 16 bits may be either.
+    EXPECT_GT(same, best.size() * 98 / 100);
+}
+
 TEST(Terrarium, HasHeightsToAQuarterOfACentimetre) {
     const MapFrame frame = frame_of(extent_of(params()), 64);
     const auto rgb = terrarium_of(ground(), frame);
@@ -255,7 +345,7 @@ TEST(WorldMap, HasADescriptionAndARangeForEachName) {
         const MapRange range = range_of(map, ground());
         EXPECT_LT(range.from, range.to);
     }
-    EXPECT_EQ(count, 10);
+    EXPECT_EQ(count, 16);
 }
 
 }  // namespace

@@ -559,9 +559,7 @@ TEST(Season, HasTheShareOfBodiesThatPlacesMayHave) {
 TEST(Season, OfTooManyBodiesIsImpossible) {
     std::vector<FungusSpecies> species{marasmius()};
     species[0].ecology.fruit.density = 200.0;
-    species[0].ecology.genet.rate = 0.001;
-    species[0].ecology.genet.reach = 20.0;
-    species[0].ecology.genet.speed = 2.0;
+    species[0].ecology.fruit.clusters = species[0].ecology.fruit.tufts = 10.0;
     const EvenHabitat habitat;
     const Fungi fungi{7, species, habitat};
     const std::vector<Genet> genets = genets_of(fungi, {0, 0}, 2, {});

@@ -165,8 +165,11 @@ TEST_F(WorldEditsTest, RefuseWhatIsNoMask) {
 }
 
 TEST_F(WorldEditsTest, RefuseMoreBodiesThanAWorldHasPlaceFor) {
-    const std::string dense = R"("genet":{"rate":0.001,"reach":20,"speed":2,"life":300},)"
-                              R"("fruit":{"density":200,"rain_memory":12})";
+    // It tolerates all weather, all places and all months.
+    std::string dense = R"("fruit":{"density":200,"clusters":10,"tufts":10},"months":[],)"
+                        R"("temperature":{"tolerates":[-20,45],"prefers":[-20,45]})";
+    for (const char* condition : {"light", "wetness", "acidity"})
+        dense += ",\"" + std::string(condition) + R"(":{"tolerates":[0,1],"prefers":[0,1]})";
     const Response response = fungi(R"(,"ecology":{")" + ring + "\":{" + dense + "}}",
                                     "meadow,seed=7,extent=256,fungi.abundance=10");
     EXPECT_EQ(response.status, 422) << text_of(response).substr(0, 200);

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/params/types.h"
 #include "core/surface/codecs.h"
 #include "core/world/ground.h"
 #include "tests/api/support.h"
@@ -50,7 +52,7 @@ TEST_F(WorldMapsTest, AreListedByTheirWorldAndHaveAllTheirFiles) {
         for (const auto& [kind, file] : map.find("links")->members())
             EXPECT_EQ(ask(file.as_string()).status, 200) << file.as_string();
     }
-    EXPECT_EQ(generated(), 1 + 11 + 11 + 10U) << "each file once, whatever it was named";
+    EXPECT_EQ(generated(), 1 + 17 + 17 + 16U) << "each file once, whatever it was named";
 }
 
 TEST_F(WorldMapsTest, OfCrownsAndSporesChangeWithTheYear) {
@@ -79,6 +81,56 @@ TEST_F(WorldMapsTest, HaveSporesOfFungiOfTheWorldAlone) {
                       "for the map of spores"));
     EXPECT_TRUE(
         names(ask("/v1/worlds/meadow,fungi.species=/y80/maps/spores.png"), "species", "no fungus"));
+}
+
+TEST_F(WorldMapsTest, OfSpeciesHaveAPalette) {
+    const std::string place = world + "/y80/maps/species";
+    const Value map = json_of(ask(place + ".json?size=65"));
+    const Value::Array& palette = map.find("palette")->items();
+    ASSERT_EQ(palette.size(), 8U) << "none, and the seven fungi of a meadow";
+    EXPECT_EQ(palette[0].find("species")->as_string(), "");
+    EXPECT_EQ(palette[1].find("species")->as_string(), "coprinus_comatus");
+    const Response response = ask(place + ".png?size=65");
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    const std::string file = text_of(response);
+    EXPECT_NE(file.find("tEXtSpecies 1"), std::string::npos);
+    EXPECT_NE(file.find("PLTE"), std::string::npos);
+    const Picture picture = decoded_picture(
+        std::span(reinterpret_cast<const std::uint8_t*>(file.data()), file.size()), "");
+    const auto numbers = numbers_of(text_of(ask(place + ".r16?size=65")));
+    ASSERT_EQ(picture.rgb.size(), 3 * numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        ASSERT_LT(numbers[i], palette.size());
+        const Colour colour{picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]};
+        ASSERT_EQ(palette[numbers[i]].find("colour")->as_string(), colour_text(colour));
+    }
+    EXPECT_EQ(json_of(ask(world + "/y80/maps/light.json")).find("palette"), nullptr);
+}
+
+TEST_F(WorldMapsTest, OfTheCoverChangeWithTheDay) {
+    const auto numbers_on = [&](const char* map, const char* day) {
+        const Response response = ask(world + "/y80" + day + "/maps/" + map + ".r16?size=64");
+        EXPECT_EQ(response.status, 200) << text_of(response);
+        return numbers_of(text_of(response));
+    };
+    const auto sum = [](const std::vector<std::uint16_t>& numbers) {
+        double out = 0.0;
+        for (const std::uint16_t number : numbers) out += number;
+        return out;
+    };
+    EXPECT_GT(sum(numbers_on("litter", "d340")), sum(numbers_on("litter", "d270")))
+        << "leaves have fallen";
+    EXPECT_GT(sum(numbers_on("grass", "d270")), 0.3 * 65535 * 64 * 64) << "it is a meadow";
+    EXPECT_TRUE(names(ask(world + "/y80/maps/moss.png"), "time", "such as y80d270"));
+}
+
+TEST_F(WorldMapsTest, OfProbabilityAreOfOneSpecies) {
+    const Response one = ask(world + "/y80/maps/probability.r16?size=64&species=hygrocybe_conica"),
+                   first = ask(world + "/y80/maps/probability.r16?size=64");
+    ASSERT_EQ(one.status, 200) << text_of(one);
+    EXPECT_NE(header(one, "ETag"), header(first, "ETag"));
+    EXPECT_NE(header(first, "Content-Location").find("species=coprinus_comatus"),
+              std::string::npos);
 }
 
 TEST_F(WorldMapsTest, HaveTheHeightsOfTheGroundInMetres) {

@@ -236,13 +236,13 @@ TEST(WorldParts, HaveNoBodiesWhereAMaskIsBlack) {
             stripes.values.push_back(static_cast<std::uint16_t>(row % 2 * 65535));
     WorldEdits edits;
     edits.masks[mask_of_fungi] = std::make_shared<const WorldMask>(squares);
-    edits.masks["laccaria_amethystina"] = std::make_shared<const WorldMask>(stripes);
+    edits.masks["hypholoma_fasciculare"] = std::make_shared<const WorldMask>(stripes);
     const World masked = edited(beech(), settled(std::move(edits)));
     std::size_t of_stripes = 0;
     const std::vector<FruitBody> bodies = bodies_of_year(masked, {-32, -32, 32, 32}, 80, shared());
     for (const FruitBody& body : bodies) {
         ASSERT_GT(squares.at(body.at), 0.0);
-        if (masked.species_ids[body.species] == "laccaria_amethystina") {
+        if (masked.species_ids[body.species] == "hypholoma_fasciculare") {
             ASSERT_GT(stripes.at(body.at), 0.0);
             ++of_stripes;
         }
@@ -277,21 +277,20 @@ TEST(WorldParts, FruitInTheMonthsOfTheirOwnEcologies) {
 TEST(WorldParts, OfAMeadowWithOneFounderHaveItsSpeciesNearIt) {
     WorldParams params = small_world("meadow");
     params.fungi.species = Text<620>("marasmius_oreades");
-    params.fungi.abundance = 10.0;
     WorldEdits edits;
-    edits.founders["marasmius_oreades"] = {{-80.0, 0.0, 100}};
+    edits.founders["marasmius_oreades"] = {{-80.0, 0.0, 60}};
     const World world =
         world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)),
                  in_turn, std::make_shared<const WorldEdits>(settled(std::move(edits))));
     CachedParts own;
     std::size_t near = 0, far = 0;
-    for (int year = 124; year < 130; ++year)
+    for (int year = 118; year < 124; ++year)
         for (const FruitBody& body :
              bodies_of_year(world, {-128, -64, 128, 64}, year, own.services))
             ++(metres(body.at.x) < 0.0 ? near : far);
     EXPECT_GT(near, 0U);
     EXPECT_LT(10 * far, near);
-    EXPECT_TRUE(bodies_of_year(world, {-128, -64, 128, 64}, 60, own.services).empty());
+    EXPECT_TRUE(bodies_of_year(world, {-128, -64, 128, 64}, 50, own.services).empty());
 }
 
 }  // namespace
