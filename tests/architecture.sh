@@ -71,6 +71,7 @@ forbid core 'std::(stof|stod|strtod|atof|ostringstream|stringstream|istringstrea
 forbid core '(constexpr|const) std::uint32_t [a-z_]*purpose[a-z_]* *=|Random( [a-z_]+)?\([^,()]*(\(\))?, [0-9]' 'purposes of random streams must be listed in core/math/purposes.h'
 
 forbid core 'for \(.*: *([a-z_]+_(of_world|in)|emerging|standing)\(.*\)->' 'a range-for does not keep the shared object that a function returns'
+forbid tests 'for \(.*: *(test::)?(json_of|json_chunk|expect_scene|parse)\(.*\)(\.[a-z_]+[([]|->)' 'a range-for does not keep the object that a function returns'
 
 # Headers that are slow to compile or of one purpose are included in few places.
 verdict 'Highway may be used only by the noise of core/math and the paint kernels of core/surface and core/world' "$(

@@ -54,7 +54,8 @@ TEST_F(WorldEditsTest, LeaveNothingWhereAMaskIsBlack) {
     const Response some = masked("fungi", half(16));
     ASSERT_EQ(some.status, 200) << text_of(some);
     std::size_t east = 0, west = 0;
-    for (const Value& row : json_of(all).find("placements")->items())
+    const Value everything = json_of(all);
+    for (const Value& row : everything.find("placements")->items())
         ++(row.find("translation")->items()[0].as_number() < 0.0 ? west : east);
     ASSERT_GT(west, 0U);
     ASSERT_GT(east, 0U);
