@@ -44,6 +44,7 @@
 #include "core/grow/tree.h"
 #include "core/grow/world/placements.h"
 #include "core/grow/world/plot_of_world.h"
+#include "core/grow/world/tile.h"
 #include "core/math/noise.h"
 #include "core/math/random.h"
 #include "core/params/query.h"
@@ -271,7 +272,7 @@ Body ground_body(const WorldParams& params) {
     const MapFrame frame = frame_of(extent_of(params), 101);
     for (int i = 0; name(static_cast<WorldMap>(i)); ++i) {
         const auto map = static_cast<WorldMap>(i);
-        if (needs_world(map)) continue;
+        if (needs_world(map) || map == WorldMap::wind) continue;
         for (const std::uint16_t number :
              map_of(map, {.ground = ground, .soil_water = 60.0}, frame))
             append(bytes, number);
@@ -382,6 +383,59 @@ Body placements_body(const WorldParams& params) {
     return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
 }
 
+/// Returns maps of the wind and of how probable species are.
+Body more_maps_body(const WorldParams& params) {
+    const World world =
+        world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params)));
+    constexpr int year = 80;
+    const WorldBox box{-12.0, -8.0, 12.0, 16.0};
+    const MapInputs inputs{.ground = *world.ground,
+                           .world = &world,
+                           .year = year,
+                           .climate = params.climate,
+                           .crowns = [&](CellIndex) {
+                               return crowns_in(world, blocks_round(world, box, {}).trees,
+                                                {-64.0, -64.0, 64.0, 64.0}, time_of(year, 270));
+                           }};
+    Bytes bytes;
+    for (const WorldMap map : {WorldMap::wind, WorldMap::probability, WorldMap::species})
+        for (const std::uint16_t number : map_of(map, inputs, frame_of(box, 49)))
+            append(bytes, number);
+    return {Slice(std::make_shared<const Bytes>(std::move(bytes)))};
+}
+
+/// Returns tiles of each layer and of several sizes.
+Body tiles_body(const WorldParams& params) {
+    const auto world = std::make_shared<const World>(
+        world_of(params, lookup_in(atlas()), std::make_shared<const Ground>(ground_of(params))));
+    const ImageUrls urls{{"c.jpg", "n.jpg", "o.jpg"}, {"c.webp", "n.webp", "o.webp"}};
+    TileLinks links;
+    links.tree = [](const TreeSpec& spec) { return spec.preset + ".bin"; };
+    links.mushroom = [](const MushroomSpec& spec) { return spec.mix.front().id + ".bin"; };
+    links.bark = [urls](const TreeSpec&) { return urls; };
+    links.leaves = [urls](const std::string&, const LeafPaint&) { return urls; };
+    links.skin = [urls](const MushroomSpec&) { return urls; };
+    links.wood = [urls](const WoodPaint&) { return urls; };
+    const Tiling tiling{params.extent};
+    Body all;
+    const auto add = [&](PlotLayer layer, const TileIndex& tile) {
+        const Body one = grow_tile(world, {tiling, tile, layer, TileProfile::web, time_of(80, 270)},
+                                   atlas(), links)
+                             .glb;
+        all.insert(all.end(), one.begin(), one.end());
+    };
+    for (const TileIndex tile : {TileIndex{0, 0, 0}, {2, 1, 2}, {5, 16, 16}})
+        add(PlotLayer::ground, tile);
+    for (const TileIndex tile : {TileIndex{2, 1, 2}, {5, 16, 16}}) add(PlotLayer::trees, tile);
+    for (const TileIndex tile : {TileIndex{3, 4, 4}, {4, 8, 8}, {5, 16, 16}})
+        add(PlotLayer::floor, tile);
+    add(PlotLayer::fungi, {3, 4, 4});
+    for (const PlotLayer layer : {PlotLayer::ground, PlotLayer::trees})
+        all.push_back(Slice(std::make_shared<const Bytes>(
+            subtree_of(tiling, {3, 2, 2}, layer, reach_of(*world->ground, params, world->stand)))));
+    return all;
+}
+
 /// Adds what stands and grows in a block of each world, and two plots and their surroundings.
 void add_blocks(Requests& requests) {
     for (const WorldPreset& preset : atlas().worlds()) {
@@ -396,6 +450,12 @@ void add_blocks(Requests& requests) {
             };
             requests[line_of("plot/" + preset.id.string(), params.seed, 80, 256)] = [params] {
                 return plot_body(params);
+            };
+            requests[line_of("more_maps/" + preset.id.string(), params.seed, 80, 256)] = [params] {
+                return more_maps_body(params);
+            };
+            requests[line_of("tiles/" + preset.id.string(), params.seed, 80, 256)] = [params] {
+                return tiles_body(params);
             };
         }
     }

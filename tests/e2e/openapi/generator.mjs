@@ -53,7 +53,10 @@ export class Generator {
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
         if (name === "lod" && schema.type === "string") return dice.pick(["0", "3"]);
         if (name === "bbox") return dice.pick(["", "-32,-16,32,16", "0,0,1,100.5"]);
-        if ((name === "x" || name === "y") && schema.type === "number") return dice.pick([0, -7.5, 20]);
+        if ((name === "x" || name === "y") && schema.type === "number") {
+            const places = [0, -7.5, 20].filter((one) => one >= (schema.minimum ?? one) && one <= (schema.maximum ?? one));
+            return places.length ? dice.pick(places) : this.number(schema);
+        }
         if (name === "species" && schema.type === "string") return dice.pick(["", "marasmius_oreades"]); // of a meadow
         if (name === "species") return this.someSpecies();
         if (name === "layers") return dice.pick(["", "fungi", "ground+trees"]);
@@ -146,11 +149,11 @@ export class Generator {
         const { dice } = this;
         const headers = {};
         const query = [];
-        // A photograph may have been deleted by then, few lines are those of a mushroom, and a species of the library
-        // is there for some and not for others.
+        // A photograph may have been deleted by then, few lines are those of a mushroom or enough for an outline, and a
+        // species of the library is there for some and not for others.
         const ofLibrary = /^\/v1\/(library|tokens)/.test(path);
         if (ofLibrary && dice.chance(0.8)) headers.Authorization = `Bearer ${this.lists.token}`;
-        let right = !path.startsWith("/v1/photos/") && path !== "/v1/traces" && !ofLibrary, wrong = false, target = path;
+        let right = !path.startsWith("/v1/photos/") && path !== "/v1/traces" && path !== "/v1/outlines/check" && !ofLibrary, wrong = false, target = path;
         for (const parameter of operation.parameters ?? []) {
             if (parameter.in !== "path") continue;
             let value = this.pathValue(parameter.name, path) ?? this.right(parameter.schema, parameter.name);
@@ -180,8 +183,8 @@ export class Generator {
                 const schema = follow(this.document, content.schema);
                 const { properties } = schema;
                 let value = this.right(schema);
-                if ("texture_size" in properties) value = { texture_size: 128, ...value };
-                if ("lod" in properties) value = { lod: 3, ...value };
+                if ("texture_size" in properties) value = { texture_size: follow(this.document, properties.texture_size).enum[0], ...value };
+                if ("lod" in properties) value = { lod: Math.min(3, follow(this.document, properties.lod).maximum), ...value };
                 if ("count" in properties) value = { count: 2, ...value };
                 if (dice.chance(0.15)) {
                     const key = dice.pick(Object.keys(properties));
