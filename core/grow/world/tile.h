@@ -50,7 +50,7 @@ struct TileRequest {
     WorldTime time = 0;
 };
 
-/// Returns whether any fruit bodies on a tile are large enough for its size.
+/// Fruit bodies whose longest side is shorter than this are on the two finest levels alone, metres.
 inline constexpr double least_body_from_afar = 0.05;
 
 /// Builds a tile. Its root node has the middle of the tile as translation, east of the centre of the world, up from the
