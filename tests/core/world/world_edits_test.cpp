@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace sporeprint::world_edits_test {
 namespace {
