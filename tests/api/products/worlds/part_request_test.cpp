@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 
 #include "tests/api/support.h"
@@ -76,7 +77,8 @@ TEST_F(WorldPostsTest, WithEditsThatChangeNothingAreTheResourcesOfGet) {
               std::vector<std::string>{});
     EXPECT_EQ(header(placements(R"(,"masks":{"fungi":")" + white + "\"}"), "ETag"), usual);
     // What the atlas has.
-    const AtlasEntry* const entry = built_in_atlas()->find("marasmius_oreades");
+    const std::shared_ptr<const Atlas> atlas = built_in_atlas();
+    const AtlasEntry* const entry = atlas->find("marasmius_oreades");
     EXPECT_EQ(header(placements(R"(,"ecology":{"marasmius_oreades":{"guild":")" +
                                 std::string(name(entry->species.ecology.guild)) + "\"}}"),
                      "ETag"),
