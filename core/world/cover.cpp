@@ -103,6 +103,15 @@ std::array<double, most_kinds> litterfall(std::span<const LitterSource> sources,
     return sum;
 }
 
+void set_ground(CoverConditions& conditions, const Ground& ground, double x, double y,
+                double soil_water) {
+    const Coordinate column = coordinate_at(ground.grid, x), row = coordinate_at(ground.grid, y);
+    const Place place = place_at(ground, column, row);
+    conditions.wetness = wetness_on(ground, wetness_index_at(ground, column, row), soil_water);
+    conditions.slope = std::sqrt(place.east * place.east + place.north * place.north);
+    conditions.stream = stream_at(ground, column, row);
+}
+
 Cover CoverField::at(double x, double y) const {
     const double u = x / step, v = y / step;
     const double column = std::floor(u), row = std::floor(v);

@@ -32,6 +32,13 @@ struct CoverConditions {
     std::array<bool, most_kinds> has_needles{};
 };
 
+/// Sets the conditions that the ground of a place gives: wetness, slope and stream.
+///
+/// x, y        metres
+/// soil_water  of the day or of a mean, mm, as wetness_on() takes it
+void set_ground(CoverConditions& conditions, const Ground& ground, double x, double y,
+                double soil_water);
+
 /// Shares of the ground, which sum to 1.
 struct Cover {
     double soil = 0.0, needles = 0.0, moss = 0.0, grass = 0.0, herb = 0.0, rock = 0.0, water = 0.0;

@@ -18,6 +18,11 @@ struct WorldBox {
     bool operator==(const WorldBox&) const = default;
 };
 
+/// Returns the rectangle whose sides lie so many metres farther out.
+[[nodiscard]] constexpr WorldBox grown(const WorldBox& box, double by) {
+    return {box.west - by, box.south - by, box.east + by, box.north + by};
+}
+
 /// Returns the rectangle of a whole world.
 [[nodiscard]] WorldBox extent_of(const WorldParams& params);
 

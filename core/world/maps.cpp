@@ -135,12 +135,6 @@ double share_of(WorldMap map, const Cover& cover) {
     return map == WorldMap::grass ? cover.grass : cover.all_leaves() + cover.needles;
 }
 
-/// Returns the place at so many metres to the east and north, rounded down to units.
-WorldPoint point_at(double x, double y) {
-    return {static_cast<std::int32_t>(std::floor(x * units_of_metre)),
-            static_cast<std::int32_t>(std::floor(y * units_of_metre))};
-}
-
 /// The cover of the places of a block, row by row.
 class BlockCover {
   public:
@@ -159,15 +153,8 @@ class BlockCover {
     }
     /// light  share of the light of an open sky, below crowns
     [[nodiscard]] Cover at(double x, double y, double light) {
-        const Ground& ground = inputs_.ground;
-        const Coordinate east = coordinate_at(ground.grid, x),
-                         north = coordinate_at(ground.grid, y);
-        const Place place = place_at(ground, east, north);
         conditions_.light = light;
-        conditions_.wetness =
-            wetness_on(ground, wetness_index_at(ground, east, north), inputs_.world->autumn_water);
-        conditions_.slope = std::sqrt(place.east * place.east + place.north * place.north);
-        conditions_.stream = stream_at(ground, east, north);
+        set_ground(conditions_, inputs_.ground, x, y, inputs_.world->autumn_water);
         conditions_.fall = litterfall(near_, x, y, wind_.cosine, wind_.sine);
         return cover_of(conditions_);
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "core/math/random.h"
@@ -34,6 +35,12 @@ inline constexpr std::int32_t units_of_metre = 65536;
 
 [[nodiscard]] constexpr double metres(std::int32_t units) {
     return static_cast<double>(units) / units_of_metre;
+}
+
+/// Returns the place at so many metres to the east and north, rounded down to units.
+[[nodiscard]] inline WorldPoint point_at(double x, double y) {
+    return {static_cast<std::int32_t>(std::floor(x * units_of_metre)),
+            static_cast<std::int32_t>(std::floor(y * units_of_metre))};
 }
 
 /// A world is computed by squares of this side, metres: nothing in one depends on what is further away than its eight

@@ -1,7 +1,9 @@
 #include "core/world/world_edits.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
+#include <utility>
 
 #include "core/params/canonical.h"
 
@@ -28,6 +30,13 @@ std::string canonical_edits(const WorldEdits& edits) {
     return text;
 }
 
+/// Sorts a list by a key and removes what repeats.
+template <class Item, class Key>
+void without_repetition(std::vector<Item>& list, const Key& key) {
+    std::ranges::sort(list, {}, key);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
 }  // namespace
 
 std::uint16_t bits_of_months(std::span<const int> months) {
@@ -48,13 +57,13 @@ std::size_t WorldEdits::bytes() const {
     return sum + ecologies.size() * sizeof(SpeciesEcology);
 }
 
+SpeciesEcology settled(SpeciesEcology own) {
+    without_repetition(own.months, std::identity());
+    return own;
+}
+
 WorldEdits settled(WorldEdits edits) {
-    const auto without_repetition = [](auto& list, const auto& key) {
-        std::ranges::sort(list, {}, key);
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    };
-    for (auto& [id, own] : edits.ecologies)
-        without_repetition(own.months, [](int month) { return month; });
+    for (auto& [id, own] : edits.ecologies) own = settled(std::move(own));
     for (auto& [id, list] : edits.founders)
         without_repetition(list,
                            [](const Founder& one) { return std::tuple(one.year, one.x, one.y); });

@@ -70,6 +70,9 @@ struct WorldEdits {
 
 using SharedEdits = std::shared_ptr<const WorldEdits>;
 
+/// Brings an ecology into one form: months sorted and without repetition.
+[[nodiscard]] SpeciesEcology settled(SpeciesEcology own);
+
 /// Brings edits into one form: founders and months sorted and without repetition, no mask that takes nothing away; and
 /// sets their text.
 [[nodiscard]] WorldEdits settled(WorldEdits edits);

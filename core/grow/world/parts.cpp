@@ -37,10 +37,6 @@ WeatherYear weather_in(const World& world, int year) {
     return weather_of(world.params.climate, world.params.seed, std::max(year, 0));
 }
 
-WorldBox grown(const WorldBox& box, double by) {
-    return {box.west - by, box.south - by, box.east + by, box.north + by};
-}
-
 /// Computes the blocks that a rectangle is part of.
 void compute_blocks(const World& world, const WorldBox& box, const ExecutionContext& execution) {
     std::vector<std::function<void()>> tasks;
@@ -266,6 +262,14 @@ Block blocks_round(const World& world, const WorldBox& box, const ExecutionConte
     sort_by_id(out.trees);
     sort_by_id(out.dead);
     return out;
+}
+
+Block present_at(Block block, WorldTime time) {
+    std::erase_if(block.trees, [&](const StandTree& tree) { return !tree.lives_at(time); });
+    std::erase_if(block.dead, [&](const DeadWood& wood) {
+        return !wood.stands_at(time) && !wood.lies_at(time);
+    });
+    return block;
 }
 
 void compute_surroundings(const World& world, const WorldBox& box,

@@ -71,17 +71,12 @@ class BlockPlacements {
         : request_(request),
           block_(block),
           box_(part_in(block, request.box)),
-          around_(blocks_round(request.world, box_of(block), request.execution)),
+          around_(present_at(blocks_round(request.world, box_of(block), request.execution),
+                             request.time)),
           content_(content_of(request.world,
                               {(block.x + 0.5) * block_side, (block.y + 0.5) * block_side,
                                block_side + 2.0 * trunk_reach},
                               request.time)) {
-        // What is there at other times is many times as much.
-        std::erase_if(around_.trees,
-                      [&](const StandTree& tree) { return !tree.lives_at(request.time); });
-        std::erase_if(around_.dead, [&](const DeadWood& wood) {
-            return !wood.stands_at(request.time) && !wood.lies_at(request.time);
-        });
         content_.trees = around_.trees;
         content_.dead_wood = around_.dead;
         feet_ = feet_of(content_);

@@ -16,6 +16,7 @@
 #include "core/grow/wood.h"
 #include "core/grow/world/plot_bodies.h"
 #include "core/grow/world/plot_parts.h"
+#include "core/grow/world/world_materials.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/world/floor_image.h"
@@ -63,7 +64,8 @@ class PlotScene {
           options_(options),
           atlas_(atlas),
           extras_(extras),
-          execution_(execution) {
+          execution_(execution),
+          materials_(scene_, options.textures, options.file, no_urls_, atlas, execution) {
         set_options(scene_, options.file);
         scene_.stands_on_ground = false;
     }
@@ -107,7 +109,8 @@ class PlotScene {
     const ExecutionContext& execution_;
     GlbScene scene_;
     std::deque<Mesh> meshes_;
-    std::deque<EmbeddedImages> images_;
+    MaterialUrls no_urls_;
+    WorldMaterials materials_;
     PlotTrees trees_;
     PlotBodies bodies_;
     std::vector<PlotLeaves> leaves_;
@@ -115,8 +118,7 @@ class PlotScene {
     std::vector<std::size_t> tree_nodes_, body_nodes_;
     std::vector<std::pair<std::uint64_t, std::size_t>> log_nodes_;
     Bounds box_{glm::vec3(1e9F), glm::vec3(-1e9F)};
-    bool is_empty_ = false;                           ///< nothing is shown
-    std::map<std::string, std::size_t> material_of_;  ///< by name
+    bool is_empty_ = false;  ///< nothing is shown
 
     /// Adds leaves and grass.
     void add_floor(const PlotFrame& frame, const CoverField& cover) {
@@ -138,20 +140,6 @@ class PlotScene {
             box_.min = glm::min(box_.min, in_scene);
             box_.max = glm::max(box_.max, in_scene);
         }
-    }
-
-    /// Returns the material of a name, made if there is none yet.
-    std::size_t material(const std::string& name, const std::function<void(GlbMaterial&)>& look,
-                         const std::function<std::shared_ptr<const ImageSet>(ImageFormat)>& paint) {
-        const auto [found, is_new] = material_of_.try_emplace(name, scene_.materials.size());
-        if (is_new) {
-            scene_.materials.push_back({.name = name});
-            look(scene_.materials.back());
-            if (paint)
-                images_.push_back(attach_images(scene_.materials.back(), options_.textures,
-                                                options_.file, {}, execution_, paint));
-        }
-        return found->second;
     }
 
     /// Removes what a mesh needs for images only, if there are none.
@@ -182,24 +170,10 @@ class PlotScene {
         params.height = frame.height();
         Mesh slab = slab_mesh(params, frame.floor());
         without_images(slab);
-        const std::size_t ground = material(
-            "plot_ground", [](GlbMaterial&) {},
-            [&](ImageFormat format) {
-                execution_.observer(Step::paint);
-                const std::vector<LeafLitter> litter = litter_of(content_, atlas_);
-                FloorPaint paint;
-                paint.seed = content_.seed;
-                paint.box = frame.box();
-                paint.side = options_.texture_size;
-                paint.wetness = std::clamp(content_.soil_water / 100.0, 0.0, 1.0);
-                paint.day = day_of_year(content_.time);
-                paint.kinds = litter;
-                paint.cover = &cover;
-                const RawImages painted = floor_images(paint, execution_.parallel);
-                throw_if_cancelled(execution_);
-                return std::make_shared<const ImageSet>(
-                    encoded(painted, format, execution_.parallel));
-            });
+        const std::size_t ground = materials_.ground("plot_ground", [&] {
+            return floor_of(content_, cover, options_.texture_size, true, atlas_,
+                            execution_.parallel);
+        });
         add_single(std::move(slab), "plot_ground", ground, GlbRole::body);
     }
 
@@ -207,21 +181,12 @@ class PlotScene {
         std::vector<std::size_t> mesh_of;
         for (const PlotTrees::Shape& shape : trees_.shapes) {
             const TreeParams& params = shape.spec.params;
-            const std::size_t bark = material(
-                bark_name(shape.spec.preset, paint_of(params), options_.textures),
-                [](GlbMaterial& own) { own.repeats_u = true; },
-                [&](ImageFormat format) {
-                    return painted_images(paint_of(params), execution_, format);
-                });
+            const std::size_t bark = materials_.bark(shape.spec);
             std::vector<GlbPrimitive> primitives{{primitive_mesh(shape.meshes->bark), bark, {}}};
             if (!shape.meshes->leaves.positions.empty()) {
-                const LeafPaint paint = paint_of(leaf_of(params, atlas_));
-                const std::size_t leaves = material(
-                    leaf_material_name(params.look.leaf.id.string(), paint, options_.textures),
-                    [&](GlbMaterial& own) {
-                        own.transmission = transmission_of_leaves(options_.file);
-                    },
-                    [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+                const std::string leaf = params.look.leaf.id.string();
+                const std::size_t leaves =
+                    materials_.leaves(leaf, leaf, paint_of(leaf_of(params, atlas_)));
                 primitives.push_back({primitive_mesh(shape.meshes->leaves), leaves, {}});
             }
             mesh_of.push_back(scene_.meshes.size());
@@ -255,10 +220,7 @@ class PlotScene {
     void add_logs(std::vector<PlotLog> logs) {
         std::size_t number = 0;
         for (PlotLog& log : logs) {
-            const WoodPaint paint{log.wood, wood_side({wood_texture_side}, 0)};
-            const std::size_t wood = material(
-                wood_name(paint, options_.textures), [](GlbMaterial& own) { own.repeats_u = true; },
-                [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+            const std::size_t wood = materials_.wood({log.wood, wood_side({wood_texture_side}, 0)});
             without_images(log.mesh);
             const std::string name =
                 std::string(log.lies ? "log_" : "snag_") + std::to_string(++number);
@@ -269,13 +231,7 @@ class PlotScene {
 
     void add_leaves() {
         for (PlotLeaves& own : leaves_) {
-            const LeafPaint paint = paint_of(own.leaf);
-            const std::size_t leaves = material(
-                leaf_material_name("fallen", paint, options_.textures),
-                [&](GlbMaterial& look) {
-                    look.transmission = transmission_of_leaves(options_.file);
-                },
-                [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+            const std::size_t leaves = materials_.leaves("fallen", own.preset, paint_of(own.leaf));
             without_images(own.one);
             const std::string name = "litter_" + std::to_string(&own - leaves_.data() + 1);
             if (options_.instancing == LeafInstancing::gpu) {
@@ -292,21 +248,14 @@ class PlotScene {
 
     void add_grass(Mesh grass) {
         if (grass.positions.empty()) return;
-        const std::size_t blades = material(
-            "plot_grass", [](GlbMaterial&) {}, nullptr);
+        const std::size_t blades = materials_.plain("plot_grass");
         add_single(std::move(grass), "grass", blades, GlbRole::foliage);
     }
 
     void add_bodies() {
         std::vector<std::size_t> material_of_shape;
         for (const PlotBodies::Shape& shape : bodies_.shapes)
-            material_of_shape.push_back(material(
-                skin_name(shape.spec),
-                [&](GlbMaterial& own) { own.look = look_of(shape.individual.model); },
-                [&](ImageFormat format) {
-                    return painted_images(paint_spec_of(shape.spec, atlas_, execution_.caches),
-                                          execution_, format);
-                }));
+            material_of_shape.push_back(materials_.skin(shape.spec, shape.individual));
         const bool is_crowded = scene_.nodes.size() + bodies_.bodies.size() > most_plot_nodes;
         if (is_crowded || options_.instancing == LeafInstancing::gpu) {
             add_grouped_bodies(material_of_shape);
@@ -449,20 +398,29 @@ CoverField cover_of(const PlotContent& content, const Atlas& atlas, double step)
                            crown_radius(height_at(tree, content.time)), tree.kind});
     }
     const SineCosine wind = sine_cosine(content.wind_to);
-    const Ground& ground = *content.ground;
     const auto at_place = [&](double x, double y) {
-        const Coordinate column = coordinate_at(ground.grid, x),
-                         row = coordinate_at(ground.grid, y);
-        const Place place = place_at(ground, column, row);
         at.light = content.light ? content.light(x, y) : 1.0;
-        at.wetness =
-            wetness_on(ground, wetness_index_at(ground, column, row), content.lasting_water);
-        at.slope = std::sqrt(place.east * place.east + place.north * place.north);
-        at.stream = stream_at(ground, column, row);
-        at.fall = litterfall(sources, x, y, wind.cosine, wind.sine);
+        set_ground(at, *content.ground, x, y, content.lasting_water);
+        at.fall =
+            content.fall ? content.fall(x, y) : litterfall(sources, x, y, wind.cosine, wind.sine);
         return cover_of(at);
     };
     return cover_field(box_of(content), floor_margin, at_place, step);
+}
+
+RawImages floor_of(const PlotContent& content, const CoverField& cover, int side, bool pieces,
+                   const Atlas& atlas, const Parallel& parallel) {
+    const std::vector<LeafLitter> litter = litter_of(content, atlas);
+    FloorPaint paint;
+    paint.seed = content.seed;
+    paint.box = box_of(content);
+    paint.side = side;
+    paint.wetness = std::clamp(content.soil_water / 100.0, 0.0, 1.0);
+    paint.day = day_of_year(content.time);
+    paint.kinds = litter;
+    paint.cover = &cover;
+    paint.pieces = pieces;
+    return floor_images(paint, parallel);
 }
 
 LeafState leaves_on(int day) {

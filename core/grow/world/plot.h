@@ -42,6 +42,8 @@ struct PlotContent {
     double wind_to = 0.0;  ///< direction to which the wind blows, radians from east to north
     /// The share of the light of the open sky at a place in summer, metres; 1 if there is none.
     std::function<double(double, double)> light = {};
+    /// The litter that falls at a place, as litterfall() returns it; that of the trees if there is none.
+    std::function<std::array<double, most_kinds>(double, double)> fall = {};
 };
 
 /// How far trees beyond a plot affect it, metres.
@@ -104,6 +106,16 @@ inline constexpr std::size_t most_plot_nodes = 400, most_plot_mushrooms = 16;
 /// throws  as litter_of()
 [[nodiscard]] CoverField cover_of(const PlotContent& content, const Atlas& atlas,
                                   double step = CoverField::finest_step);
+
+/// Paints the floor of a plot.
+///
+/// cover   cover_of() the content
+/// side    of the images, texels
+/// pieces  whether each leaf, needle and blade is painted (FloorPaint)
+/// throws  as litter_of() and floor_images()
+[[nodiscard]] RawImages floor_of(const PlotContent& content, const CoverField& cover, int side,
+                                 bool pieces, const Atlas& atlas,
+                                 const Parallel& parallel = in_turn);
 
 /// Returns how far the leaves of broad-leaved trees have turned, 0..1 in sixteenths, and whether they have fallen.
 struct LeafState {

@@ -29,10 +29,6 @@ constexpr std::size_t most_seeds = 4;
 /// Side of the images of mushrooms at LOD 0, texels; it halves with every level.
 constexpr int body_texture_side = 512;
 
-int part_of_life(double age, int parts) {
-    return std::min(static_cast<int>(age * parts), parts - 1);
-}
-
 /// Which individual shows a body: its species, the part of its life, and its seed.
 using ShapeKey = std::tuple<std::size_t, int, std::uint32_t>;
 
@@ -63,6 +59,29 @@ ShapeChoice chosen(const std::vector<const FruitBody*>& bodies, WorldTime time) 
 
 }  // namespace
 
+int part_of_life(double age, int parts) {
+    return std::min(static_cast<int>(age * parts), parts - 1);
+}
+
+BodyLook look_of_body(const PlotContent& content, std::size_t species, double age,
+                      std::uint32_t seed, const Atlas& atlas) {
+    const std::string path = "/species/" + std::to_string(species);
+    if (species >= content.species.size())
+        throw InvalidInput(path, "a body is of a species that the world does not have");
+    const std::string& id = content.species[species];
+    const AtlasEntry* const entry = atlas.find(id);
+    if (entry == nullptr) throw InvalidInput(path, "there is no species '" + id + "'");
+    BodyLook look;
+    look.is_lateral = entry->species.is_lateral();
+    look.spec.mix = {{id, 1000}};
+    look.spec.params.seed = seed;
+    look.spec.params.age = age;
+    look.spec.params.texture_size.value = body_texture_side;
+    look.spec.params.share = ImageShare::species;
+    if (look.is_lateral) look.spec.params.substrate = Substrate::none;
+    return look;
+}
+
 PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,
                      std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
     std::vector<const FruitBody*> standing;
@@ -79,24 +98,13 @@ PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, con
         const auto [found, is_new] = shape_of.try_emplace(key, made.shapes.size());
         if (is_new) {
             throw_if_cancelled(execution);
-            const std::string path = "/species/" + std::to_string(body->species);
-            if (body->species >= content.species.size())
-                throw InvalidInput(path, "a body is of a species that the world does not have");
-            const std::string& id = content.species[body->species];
-            const AtlasEntry* const entry = atlas.find(id);
-            if (entry == nullptr) throw InvalidInput(path, "there is no species '" + id + "'");
-            MushroomSpec spec;
-            spec.mix = {{id, 1000}};
-            spec.params.seed = 1 + std::get<2>(key);
-            spec.params.age = (std::get<1>(key) + 0.5) / choice.parts;
+            auto [spec, lateral] =
+                look_of_body(content, body->species, (std::get<1>(key) + 0.5) / choice.parts,
+                             1 + std::get<2>(key), atlas);
             spec.params.lod = options.lod;
-            spec.params.texture_size.value = body_texture_side;
             spec.params.textures = options.textures;
-            spec.params.share = ImageShare::species;
-            spec.params.substrate = Substrate::none;
             spec.params.file = options.file;
-            is_lateral.push_back(entry->species.is_lateral());
-            if (!is_lateral.back()) spec.params.substrate.reset();
+            is_lateral.push_back(lateral);
             Individual individual = resolve(spec, atlas, execution.caches.morphs);
             made.shapes.push_back({std::move(spec), std::move(individual), {}, {}});
         }

@@ -31,6 +31,22 @@ struct PlotBodies {
     std::vector<Placed> bodies;  ///< in the order of the content
 };
 
+/// Returns which of so many equal parts of its life a body is in, from 0 on.
+[[nodiscard]] int part_of_life(double age, int parts);
+
+/// What shows bodies of a species: an individual, and whether it grows from its side.
+struct BodyLook {
+    MushroomSpec spec;  ///< at LOD 0, without the options of a file
+    bool is_lateral = false;
+};
+
+/// Returns the individual that shows bodies of a species of a plot.
+///
+/// species  number of it in the content
+/// throws   InvalidInput (path "/species") for an unknown species
+[[nodiscard]] BodyLook look_of_body(const PlotContent& content, std::size_t species, double age,
+                                    std::uint32_t seed, const Atlas& atlas);
+
 /// Returns the bodies that stand on a plot.
 ///
 /// most    number of triangles that they may have; fewer ones than at the level of detail of the options

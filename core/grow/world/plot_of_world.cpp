@@ -12,10 +12,6 @@ namespace sporeprint {
 
 namespace {
 
-std::int32_t units_at(double metres) {
-    return static_cast<std::int32_t>(std::floor(metres * units_of_metre));
-}
-
 double soil_water_at(const WorldParams& params, WorldTime time) {
     const WeatherYear weather =
         weather_of(params.climate, params.seed, static_cast<int>(time / ticks_of_year));
@@ -23,8 +19,6 @@ double soil_water_at(const WorldParams& params, WorldTime time) {
 }
 
 }  // namespace
-
-WorldPoint point_at(double x, double y) { return {units_at(x), units_at(y)}; }
 
 std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
                              const WorldBox& box, WorldTime time) {
@@ -56,6 +50,13 @@ std::array<bool, most_kinds> needles_of(const World& world, const Atlas& atlas) 
     return out;
 }
 
+std::function<double(double, double)> light_below(const World& world, const CanopyLight& canopy) {
+    return [&world, &canopy](double x, double y) {
+        const WorldPoint at = point_at(x, y);
+        return world.site_at(at).light * canopy.at(x, y, world.place_at(at).height, 1.0);
+    };
+}
+
 PlotContent content_of(const World& world, const PlotPlace& place, WorldTime time) {
     PlotContent content;
     content.ground = world.ground.get();
@@ -83,18 +84,14 @@ std::unique_ptr<const WorldPlot> plot_of_world(std::shared_ptr<const World> worl
     const WorldBox box{place.x - half, place.y - half, place.x + half, place.y + half};
     plot->around = blocks_round(of, box, execution);
     plot->bodies = bodies_in(of, box, time, execution);
-    const double reach = plot_margin + shade_reach;
-    const WorldBox wide{box.west - reach, box.south - reach, box.east + reach, box.north + reach};
-    plot->canopy.emplace(crowns_in(of, plot->around.trees, wide, time));
+    plot->canopy.emplace(
+        crowns_in(of, plot->around.trees, grown(box, plot_margin + shade_reach), time));
     PlotContent& content = plot->content;
     content = content_of(of, place, time);
     content.trees = plot->around.trees;
     content.dead_wood = plot->around.dead;
     content.bodies = plot->bodies;
-    content.light = [&of, &canopy = *plot->canopy](double x, double y) {
-        const WorldPoint at = point_at(x, y);
-        return of.site_at(at).light * canopy.at(x, y, of.place_at(at).height, 1.0);
-    };
+    content.light = light_below(of, *plot->canopy);
     return plot;
 }
 

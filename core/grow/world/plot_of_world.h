@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,9 +20,6 @@ struct PlotPlace {
     double x = 0.0, y = 0.0, size = 10.0;
 };
 
-/// Returns the place at so many metres to the east and north, rounded down to units.
-[[nodiscard]] WorldPoint point_at(double x, double y);
-
 /// Returns the crowns of the trees that stand in a rectangle at a moment, in the order of the trees.
 [[nodiscard]] std::vector<Crown> crowns_in(const World& world, std::span<const StandTree> trees,
                                            const WorldBox& box, WorldTime time);
@@ -32,6 +30,12 @@ struct PlotPlace {
 
 /// Returns which kinds of the trees of a world have needles. Those that the atlas does not have have none.
 [[nodiscard]] std::array<bool, most_kinds> needles_of(const World& world, const Atlas& atlas);
+
+/// Returns the share of the light of the open sky at places of a world in summer (PlotContent::light).
+///
+/// canopy  crowns above the places; it and the world must outlive the result
+[[nodiscard]] std::function<double(double, double)> light_below(const World& world,
+                                                                const CanopyLight& canopy);
 
 /// Returns what a plot shows of a world but for trees, dead wood, fruit bodies and light.
 ///

@@ -216,7 +216,7 @@ Mesh PlotLeaves::merged() const {
                     one.tangents[i].w);
             if (!one.texture_coordinates.empty())
                 all.texture_coordinates.push_back(one.texture_coordinates[i]);
-            all.tints.push_back(place.tint);
+            all.tints.push_back(one.tints.empty() ? place.tint : place.tint * one.tints[i]);
         }
         for (const std::uint32_t index : one.indices) all.indices.push_back(first + index);
     }

@@ -20,6 +20,7 @@
 #include "core/grow/tree.h"
 #include "core/grow/wood.h"
 #include "core/grow/world/parts.h"
+#include "core/grow/world/plot_bodies.h"
 #include "core/grow/world/plot_of_world.h"
 #include "core/grow/world/plot_parts.h"
 #include "core/grow/world/plot_places.h"
@@ -39,8 +40,8 @@ namespace {
 constexpr int parts_of_life = 8;
 constexpr std::uint64_t seeds_of_body = 2;
 
-/// Sides of the images at LOD 0, texels: of mushrooms, and of wood.
-constexpr int body_texture_side = 512, wood_texture_side = 512;
+/// Side of the images of wood at LOD 0, texels.
+constexpr int wood_texture_side = 512;
 
 /// Leaves that are meshes where leaves cover the ground, per m².
 constexpr double leaves_per_m2 = 20.0;
@@ -70,10 +71,6 @@ int lod_of_bodies(double side) {
     return side <= finest_tile ? 1 : side <= 2.0 * finest_tile ? 2 : 3;
 }
 
-WorldBox grown(const WorldBox& box, double by) {
-    return {box.west - by, box.south - by, box.east + by, box.north + by};
-}
-
 /// Returns the middle of a dead trunk: of a log along it, of a snag its foot.
 WorldPoint middle_of(const DeadWood& wood, WorldTime time) {
     if (wood.stands_at(time)) return wood.at;
@@ -94,7 +91,8 @@ class TileScene {
           atlas_(atlas),
           links_(links),
           extras_(extras),
-          execution_(execution) {
+          execution_(execution),
+          materials_(scene_, textures(), file_, links, atlas, execution) {
         const double side = request.tiling.side(request.tile.level);
         const PlotPlace place{0.5 * (box_.west + box_.east), 0.5 * (box_.south + box_.north), side};
         content_ = content_of(world_, place, request.time);
@@ -105,19 +103,17 @@ class TileScene {
     }
 
     Grown grow() {
-        if (has_content(request_.layer, content_.size)) {
+        const bool shows_layer = has_content(request_.layer, content_.size);
+        if (shows_layer) {
             execution_.observer(Step::build);
             read_surroundings();
-            const std::vector<TreeFoot> feet =
-                raises_ground() ? feet_of(wide_) : std::vector<TreeFoot>();
-            const FloorHeights floor(*content_.ground, content_.seed, content_.micro, feet);
-            const PlotFrame frame(content_, floor, origin_step);
-            scene_.nodes[0].translation = frame.origin();
-            add_layer(frame, floor);
-        } else {
-            const FloorHeights floor(*content_.ground, content_.seed, content_.micro, {});
-            scene_.nodes[0].translation = PlotFrame(content_, floor, origin_step).origin();
         }
+        const std::vector<TreeFoot> feet =
+            raises_ground() ? feet_of(wide_) : std::vector<TreeFoot>();
+        const FloorHeights floor(*content_.ground, content_.seed, content_.micro, feet);
+        const PlotFrame frame(content_, floor, origin_step);
+        scene_.nodes[0].translation = frame.origin();
+        if (shows_layer) add_layer(frame, floor);
         execution_.observer(Step::pack);
         throw_if_cancelled(execution_);
         const Bounds box = is_empty_ ? Bounds{} : bounds_;
@@ -144,8 +140,8 @@ class TileScene {
     GlbScene scene_;
     std::deque<Mesh> meshes_;
     std::deque<std::shared_ptr<const TreeMeshes>> trees_;
-    std::deque<EmbeddedImages> images_;
-    std::map<std::string, std::size_t> material_of_;
+    FileOptions file_;
+    WorldMaterials materials_;
     std::uint64_t vertices_ = 0, triangles_ = 0;
     Bounds bounds_{glm::vec3(1e9F), glm::vec3(-1e9F)};
     bool is_empty_ = true;
@@ -165,12 +161,8 @@ class TileScene {
     /// Reads what stands and lies on the tile and round it.
     void read_surroundings() {
         if (content_.size > coarsest_of_trees) return;
-        around_ = blocks_round(world_, box_, execution_);
         const WorldTime time = request_.time;
-        std::erase_if(around_.trees, [&](const StandTree& tree) { return !tree.lives_at(time); });
-        std::erase_if(around_.dead, [&](const DeadWood& wood) {
-            return !wood.stands_at(time) && !wood.lies_at(time);
-        });
+        around_ = present_at(blocks_round(world_, box_, execution_), time);
         for (PlotContent* content : {&content_, &wide_}) {
             content->trees = around_.trees;
             content->dead_wood = around_.dead;
@@ -178,10 +170,7 @@ class TileScene {
         if (!shows_cover()) return;
         canopy_.emplace(
             crowns_in(world_, around_.trees, grown(box_, plot_margin + shade_reach), time));
-        content_.light = [this](double x, double y) {
-            const WorldPoint at = point_at(x, y);
-            return world_.site_at(at).light * canopy_->at(x, y, world_.place_at(at).height, 1.0);
-        };
+        content_.light = light_below(world_, *canopy_);
     }
 
     void add_layer(const PlotFrame& frame, const FloorHeights& floor) {
@@ -217,20 +206,6 @@ class TileScene {
         scene_.nodes[0].children.push_back(scene_.nodes.size());
         scene_.nodes.push_back(std::move(node));
         return scene_.nodes.size() - 1;
-    }
-
-    /// Returns the material of a name, made if there is none yet.
-    std::size_t material(const std::string& name, const std::function<void(GlbMaterial&)>& look,
-                         const std::function<ImageUrls()>& urls,
-                         const std::function<std::shared_ptr<const ImageSet>(ImageFormat)>& paint) {
-        const auto [found, is_new] = material_of_.try_emplace(name, scene_.materials.size());
-        if (!is_new) return found->second;
-        scene_.materials.push_back({.name = name});
-        if (look) look(scene_.materials.back());
-        if (paint)
-            images_.push_back(attach_images(scene_.materials.back(), textures(), {},
-                                            is_linked() ? urls() : ImageUrls(), execution_, paint));
-        return found->second;
     }
 
     /// Adds a mesh at several places: as instances, or as nodes.
@@ -288,17 +263,10 @@ class TileScene {
     }
 
     void add_ground(const FloorHeights& floor, const PlotFrame& frame) {
-        scene_.materials.push_back({.name = "ground"});
-        images_.push_back(attach_images(scene_.materials.back(), Textures::embedded, {}, {},
-                                        execution_, [&](ImageFormat format) {
-                                            const RawImages painted = tile_images(
-                                                world_, content_, atlas_, execution_.parallel);
-                                            throw_if_cancelled(execution_);
-                                            return std::make_shared<const ImageSet>(
-                                                encoded(painted, format, execution_.parallel));
-                                        }));
-        add_single(tile_slab(world_, content_, floor, frame.height()), "ground",
-                   scene_.materials.size() - 1, GlbRole::body);
+        TileGround ground(world_, content_);
+        const std::size_t material =
+            materials_.ground("ground", [&] { return ground.images(atlas_, execution_.parallel); });
+        add_single(ground.slab(floor, frame.height()), "ground", material, GlbRole::body);
     }
 
     void add_trees(const PlotFrame& frame) {
@@ -328,27 +296,13 @@ class TileScene {
         trees_.push_back(shape.meshes);
         const TreeMeshes& meshes = *trees_.back();
         const TreeParams& params = shape.spec.params;
-        const std::size_t bark = material(
-            bark_name(shape.spec.preset, paint_of(params), textures()),
-            [](GlbMaterial& own) { own.repeats_u = true; }, [&] { return links_.bark(shape.spec); },
-            [&](ImageFormat format) {
-                return painted_images(paint_of(params), execution_, format);
-            });
+        const std::size_t bark = materials_.bark(shape.spec);
         std::vector<GlbPrimitive> primitives{{&meshes.bark, bark, {}}};
         if (meshes.leaves.positions.empty()) return primitives;
         const std::string leaf = params.look.leaf.id.string();
-        const LeafPaint paint = paint_of(leaf_of(params, atlas_));
-        const std::size_t leaves = leaf_material(leaf, leaf, paint);
+        const std::size_t leaves = materials_.leaves(leaf, leaf, paint_of(leaf_of(params, atlas_)));
         primitives.push_back({&meshes.leaves, leaves, {}});
         return primitives;
-    }
-
-    std::size_t leaf_material(const std::string& name, const std::string& leaf,
-                              const LeafPaint& paint) {
-        return material(
-            leaf_material_name(name, paint, textures()), nullptr,
-            [&] { return links_.leaves(leaf, paint); },
-            [&](ImageFormat format) { return painted_images(paint, execution_, format); });
     }
 
     void add_floor(const PlotFrame& frame, const FloorHeights& floor) {
@@ -375,11 +329,7 @@ class TileScene {
         const PlotFrame frame(content, floor, origin_step);
         const TrunkDetail detail = are_thick ? TrunkDetail{12, 40} : TrunkDetail{8, 16};
         for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
-            const WoodPaint paint{log.wood, wood_side({wood_texture_side}, 0)};
-            const std::size_t wood = material(
-                wood_name(paint, textures()), [](GlbMaterial& look) { look.repeats_u = true; },
-                [&] { return links_.wood(paint); },
-                [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+            const std::size_t wood = materials_.wood({log.wood, wood_side({wood_texture_side}, 0)});
             add_single(std::move(log.mesh), log.lies ? "log" : "snag", wood, GlbRole::body, log.id);
         }
     }
@@ -388,7 +338,7 @@ class TileScene {
         const std::vector<std::vector<GlbTransform>> places = tufts_on(content_, frame, cover);
         for (std::size_t shape = 0; shape < places.size(); ++shape) {
             if (places[shape].empty()) continue;
-            const std::size_t blades = material("grass", nullptr, nullptr, nullptr);
+            const std::size_t blades = materials_.plain("grass");
             meshes_.push_back(tuft_mesh(shape));
             add_repeated("grass_" + std::to_string(shape + 1), {}, meshes_.back(), blades,
                          places[shape]);
@@ -397,7 +347,7 @@ class TileScene {
 
     void add_litter(const PlotFrame& frame, const CoverField& cover) {
         for (PlotLeaves& own : leaves_of(content_, frame, cover, leaves_per_m2, atlas_, 0.0)) {
-            const std::size_t leaves = leaf_material("fallen", own.preset, paint_of(own.leaf));
+            const std::size_t leaves = materials_.leaves("fallen", own.preset, paint_of(own.leaf));
             meshes_.push_back(std::move(own.one));
             add_repeated("litter_" + own.preset, own.leaf, meshes_.back(), leaves, own.places);
         }
@@ -410,14 +360,7 @@ class TileScene {
             add_places(name, {{&one, material, {}}}, {}, places, {}, GlbRole::foliage);
             return;
         }
-        PlotLeaves all{leaf, {}, one, places};
-        Mesh merged = all.merged();
-        if (!one.tints.empty()) {
-            merged.tints.clear();
-            for (std::size_t i = 0; i < places.size(); ++i)
-                merged.tints.insert(merged.tints.end(), one.tints.begin(), one.tints.end());
-        }
-        add_single(std::move(merged), name, material, GlbRole::foliage);
+        add_single(PlotLeaves{leaf, {}, one, places}.merged(), name, material, GlbRole::foliage);
     }
 
     void add_fungi(const PlotFrame& frame, const FloorHeights& floor) {
@@ -427,8 +370,7 @@ class TileScene {
         std::map<Key, std::vector<const FruitBody*>> groups;
         bodies_ = bodies_on_tile();
         for (const FruitBody& body : bodies_) {
-            const int part = std::min(static_cast<int>(age_at(body, request_.time) * parts_of_life),
-                                      parts_of_life - 1);
+            const int part = part_of_life(age_at(body, request_.time), parts_of_life);
             groups[{body.species, part, (body.id >> 32U) % seeds_of_body}].push_back(&body);
         }
         for (const auto& [key, group] : groups) {
@@ -453,21 +395,10 @@ class TileScene {
                     const std::vector<const FruitBody*>& group, const PlotFrame& frame,
                     BearingTrunks& trunks) {
         const auto& [species, part, seed] = key;
-        const std::string& id = content_.species[species];
-        const AtlasEntry* const entry = atlas_.find(id);
-        if (entry == nullptr)
-            throw InvalidInput("/species/" + std::to_string(species),
-                               "there is no species '" + id + "'");
-        const bool is_lateral = entry->species.is_lateral();
-        MushroomSpec spec;
-        spec.mix = {{id, 1000}};
-        spec.params.seed = static_cast<std::uint32_t>(1 + seed);
-        spec.params.age = (part + 0.5) / parts_of_life;
+        auto [spec, is_lateral] = look_of_body(content_, species, (part + 0.5) / parts_of_life,
+                                               static_cast<std::uint32_t>(1 + seed), atlas_);
         spec.params.lod = lod_of_bodies(content_.size);
-        spec.params.texture_size.value = body_texture_side;
         spec.params.textures = textures();
-        spec.params.share = ImageShare::species;
-        if (is_lateral) spec.params.substrate = Substrate::none;
         const Individual individual = resolve(spec, atlas_, execution_.caches.morphs);
         meshes_.push_back(mushroom_mesh(spec, individual));
         const Mesh& mesh = meshes_.back();
@@ -478,13 +409,7 @@ class TileScene {
             meshes_.pop_back();
             return;
         }
-        const std::size_t skin = material(
-            skin_name(spec), [&](GlbMaterial& own) { own.look = look_of(individual.model); },
-            [&] { return links_.skin(spec); },
-            [&](ImageFormat format) {
-                return painted_images(paint_spec_of(spec, atlas_, execution_.caches), execution_,
-                                      format);
-            });
+        const std::size_t skin = materials_.skin(spec, individual);
         std::vector<GlbTransform> places;
         std::vector<std::uint64_t> ids;
         for (const FruitBody* body : group) {

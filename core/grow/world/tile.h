@@ -10,9 +10,8 @@
 #include "core/grow/product.h"
 #include "core/grow/world/plot.h"
 #include "core/grow/world/tiling.h"
-#include "core/plant/leaf_spec.h"
+#include "core/grow/world/world_materials.h"
 #include "core/plant/tree_spec.h"
-#include "core/plant/wood_image.h"
 #include "core/world/world.h"
 
 namespace sporeprint {
@@ -32,13 +31,9 @@ constexpr const char* name(TileProfile profile) {
 }
 
 /// Returns the addresses of what tiles of the profile web share, relative to those of the tiles.
-struct TileLinks {
-    std::function<std::string(const TreeSpec&)> tree;          ///< geometry of a tree
-    std::function<std::string(const MushroomSpec&)> mushroom;  ///< geometry of a mushroom
-    std::function<ImageUrls(const TreeSpec&)> bark;
-    std::function<ImageUrls(const std::string& leaf, const LeafPaint&)> leaves;
-    ImageLinks skin;  ///< of a mushroom
-    std::function<ImageUrls(const WoodPaint&)> wood;
+struct TileLinks : MaterialUrls {
+    std::function<std::string(const TreeSpec&)> tree = {};          ///< geometry of a tree
+    std::function<std::string(const MushroomSpec&)> mushroom = {};  ///< geometry of a mushroom
 };
 
 /// A layer of a tile at a moment.

@@ -41,9 +41,8 @@ constexpr double crown_size = 9.0, crown_relief = 0.16;
 bool shows_crowns(const PlotContent& content) { return content.size > coarsest_of_trees; }
 
 /// Returns the height of the crowns at places, with the hills that they are from above.
-std::vector<double> crown_heights(const World& world, const PlotContent& content,
+std::vector<double> crown_heights(PatchCanopy& canopy, const PlotContent& content,
                                   std::span<const double> x, std::span<const double> y) {
-    PatchCanopy canopy(world.stand, content.time);
     Random random(content.seed, purposes::floor_noise, 2);
     const std::uint32_t seed = random.bits();
     std::vector<float> u(x.size()), v(x.size()), noise(x.size());
@@ -93,7 +92,7 @@ glm::dvec4 look_of_stand(const World& world, const PlotContent& content, const A
 
 /// Mixes crowns into the base colour of a tile, and takes the gloss and the relief of the ground below them.
 void paint_crowns(RawImages& images, const World& world, const PlotContent& content,
-                  const Atlas& atlas) {
+                  PatchCanopy& canopy, const Atlas& atlas) {
     const WorldBox box = box_of(content);
     std::vector<double> x, y;
     for (int i = 0; i < canopy_nodes; ++i) {
@@ -101,7 +100,7 @@ void paint_crowns(RawImages& images, const World& world, const PlotContent& cont
         x.push_back(box.west + t * content.size);
         y.push_back(box.north - t * content.size);
     }
-    const std::vector<double> heights = crown_heights(world, content, x, y);
+    const std::vector<double> heights = crown_heights(canopy, content, x, y);
     const glm::dvec4 look = look_of_stand(world, content, atlas);
     const auto node = [&](int column, int row) {
         return heights[static_cast<std::size_t>(row * canopy_nodes + column)];
@@ -133,77 +132,62 @@ void paint_crowns(RawImages& images, const World& world, const PlotContent& cont
         }
 }
 
-/// Returns the cover of a tile whose trees are not known one by one.
-CoverField cover_from_afar(const World& world, const PlotContent& content, const Atlas& atlas,
-                           double step) {
-    PatchCanopy canopy(world.stand, content.time);
-    const std::vector<LeafLitter> litter = litter_of(content, atlas);
-    const Ground& ground = *content.ground;
-    CoverConditions at;
-    at.acidity = content.acidity;
-    at.day = day_of_year(content.time);
-    for (std::size_t kind = 0; kind < litter.size(); ++kind)
-        at.has_needles[kind] = has_needles(litter[kind]);
-    return cover_field(
-        box_of(content), floor_margin,
-        [&](double x, double y) {
-            const Coordinate column = coordinate_at(ground.grid, x),
-                             row = coordinate_at(ground.grid, y);
-            const Place place = place_at(ground, column, row);
-            const double shade = std::clamp(canopy.at(point_at(x, y)) / closed_height, 0.0, 1.0);
-            at.light =
-                world.site_at(point_at(x, y)).light * (1.0 - (1.0 - light_below_crowns) * shade);
-            at.wetness =
-                wetness_on(ground, wetness_index_at(ground, column, row), content.lasting_water);
-            at.slope = std::sqrt(place.east * place.east + place.north * place.north);
-            at.stream = stream_at(ground, column, row);
-            for (std::size_t kind = 0; kind < litter.size(); ++kind)
-                at.fall[kind] = shade * world.stand.kinds[kind].share;
-            return cover_of(at);
-        },
-        step);
+/// Returns a content whose light and litter are those below crowns that are not known one by one.
+///
+/// canopy  must outlive the result, as the world must
+PlotContent below_crowns(const World& world, PlotContent content, PatchCanopy& canopy) {
+    const auto shade = [&canopy](double x, double y) {
+        return std::clamp(canopy.at(point_at(x, y)) / closed_height, 0.0, 1.0);
+    };
+    content.light = [&world, shade](double x, double y) {
+        return world.site_at(point_at(x, y)).light *
+               (1.0 - (1.0 - light_below_crowns) * shade(x, y));
+    };
+    content.fall = [&world, shade](double x, double y) {
+        std::array<double, most_kinds> fall{};
+        const double here = shade(x, y);
+        for (std::size_t kind = 0; kind < world.stand.kinds.size(); ++kind)
+            fall[kind] = here * world.stand.kinds[kind].share;
+        return fall;
+    };
+    return content;
 }
 
 }  // namespace
 
 int texels_of_tile(double side) { return side <= finest_tile ? finest_tile_texels : tile_texels; }
 
-Mesh tile_slab(const World& world, const PlotContent& content, const FloorHeights& floor,
-               double height) {
+TileGround::TileGround(const World& world, const PlotContent& content)
+    : world_(world), content_(content), canopy_(world.stand, content.time) {}
+
+Mesh TileGround::slab(const FloorHeights& floor, double height) {
     SlabParams params;
-    params.box = box_of(content);
+    params.box = box_of(content_);
     params.nodes = tile_nodes;
-    params.texture_side = texels_of_tile(content.size);
+    params.texture_side = texels_of_tile(content_.size);
     params.height = height;
     // Walls hide the cracks between tiles of different sizes.
-    params.depth = std::max(0.4, content.size / 16.0);
-    if (!shows_crowns(content)) return slab_mesh(params, floor);
+    params.depth = std::max(0.4, content_.size / 16.0);
+    if (!shows_crowns(content_)) return slab_mesh(params, floor);
     return slab_mesh(params, [&](std::span<const double> x, std::span<const double> y) {
         std::vector<double> heights = floor.at(x, y);
-        const std::vector<double> crowns = crown_heights(world, content, x, y);
+        const std::vector<double> crowns = crown_heights(canopy_, content_, x, y);
         for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += crowns[i];
         return heights;
     });
 }
 
-RawImages tile_images(const World& world, const PlotContent& content, const Atlas& atlas,
-                      const Parallel& parallel) {
-    const bool is_finest = content.size <= finest_tile;
-    const double step = is_finest ? CoverField::finest_step : content.size / cover_nodes;
-    const std::vector<LeafLitter> litter = litter_of(content, atlas);
-    const CoverField cover = shows_crowns(content) ? cover_from_afar(world, content, atlas, step)
-                                                   : cover_of(content, atlas, step);
-    FloorPaint paint;
-    paint.seed = content.seed;
-    paint.box = box_of(content);
-    paint.side = texels_of_tile(content.size);
-    paint.wetness = std::clamp(content.soil_water / 100.0, 0.0, 1.0);
-    paint.day = day_of_year(content.time);
-    paint.kinds = litter;
-    paint.cover = &cover;
-    paint.pieces = is_finest;
-    RawImages images = floor_images(paint, parallel);
-    if (shows_crowns(content)) paint_crowns(images, world, content, atlas);
+RawImages TileGround::images(const Atlas& atlas, const Parallel& parallel) {
+    const bool is_finest = content_.size <= finest_tile;
+    const double step = is_finest ? CoverField::finest_step : content_.size / cover_nodes;
+    const int side = texels_of_tile(content_.size);
+    if (!shows_crowns(content_))
+        return floor_of(content_, cover_of(content_, atlas, step), side, is_finest, atlas,
+                        parallel);
+    const PlotContent below = below_crowns(world_, content_, canopy_);
+    RawImages images =
+        floor_of(below, cover_of(below, atlas, step), side, is_finest, atlas, parallel);
+    paint_crowns(images, world_, content_, canopy_, atlas);
     return images;
 }
 

@@ -5,6 +5,8 @@
 #include "core/grow/world/plot.h"
 #include "core/images.h"
 #include "core/mesh/mesh.h"
+#include "core/world/patches.h"
+#include "core/world/plot_ground.h"
 #include "core/world/world.h"
 
 namespace sporeprint {
@@ -16,19 +18,28 @@ inline constexpr int tile_nodes = 33, finest_tile_texels = 512, tile_texels = 25
 /// Returns the number of texels along each side of the images of a tile.
 [[nodiscard]] int texels_of_tile(double side);
 
-/// Returns the slab of a tile. Vertices at one place of the world are equal bit for bit in all tiles of a size.
-///
-/// content  the tile as a plot; its trees raise the ground of small tiles
-/// floor    heights of the ground with the feet of these trees
-/// height   in the world of what is at y = 0
-[[nodiscard]] Mesh tile_slab(const World& world, const PlotContent& content,
-                             const FloorHeights& floor, double height);
+/// The ground of a tile. What is known of the crowns of its patches serves its slab and its images.
+class TileGround {
+  public:
+    /// content  the tile as a plot, with its light and the trees that raise its ground and drop leaves on it; without
+    ///          trees if it is larger than coarsest_of_trees. It must outlive the ground, as the world must
+    TileGround(const World& world, const PlotContent& content);
 
-/// Paints the images of the ground of a tile.
-///
-/// content  the tile as a plot, with its light and the trees that drop leaves on it; without trees if it is larger than
-///          coarsest_of_trees
-[[nodiscard]] RawImages tile_images(const World& world, const PlotContent& content,
-                                    const Atlas& atlas, const Parallel& parallel = in_turn);
+    /// Returns the slab. Vertices at one place of the world are equal bit for bit in all tiles of a size.
+    ///
+    /// floor   heights of the ground with the feet of trees
+    /// height  in the world of what is at y = 0
+    [[nodiscard]] Mesh slab(const FloorHeights& floor, double height);
+
+    /// Paints the images.
+    ///
+    /// throws  InvalidInput (path "/kinds") for an unknown tree; what `parallel` throws
+    [[nodiscard]] RawImages images(const Atlas& atlas, const Parallel& parallel = in_turn);
+
+  private:
+    const World& world_;
+    const PlotContent& content_;
+    PatchCanopy canopy_;
+};
 
 }  // namespace sporeprint

@@ -74,23 +74,22 @@ void put(std::vector<std::uint8_t>& to, const void* from, std::size_t size) {
 
 constexpr std::size_t padded_to_8(std::size_t size) { return (size + 7) & ~std::size_t{7}; }
 
-/// Returns the box as 3D Tiles has it: its middle, and half of its axes.
-std::array<double, 12> numbers_of(const TileBox& box) {
-    return {0.5 * (box.west + box.east),
-            0.5 * (box.south + box.north),
-            0.5 * (box.low + box.high),
-            0.5 * (box.east - box.west),
-            0.0,
-            0.0,
-            0.0,
-            0.5 * (box.north - box.south),
-            0.0,
-            0.0,
-            0.0,
-            0.5 * (box.high - box.low)};
-}
-
 }  // namespace
+
+std::array<double, 12> TileBox::numbers() const {
+    return {0.5 * (west + east),
+            0.5 * (south + north),
+            0.5 * (low + high),
+            0.5 * (east - west),
+            0.0,
+            0.0,
+            0.0,
+            0.5 * (north - south),
+            0.0,
+            0.0,
+            0.0,
+            0.5 * (high - low)};
+}
 
 int Tiling::levels() const {
     int levels = 1;
@@ -150,8 +149,7 @@ TileBox box_of(const Tiling& tiling, const TileIndex& tile, PlotLayer layer,
             above = reach.longest + 1.0;
             break;
     }
-    const WorldBox wide{square.west - beside, square.south - beside, square.east + beside,
-                        square.north + beside};
+    const WorldBox wide = grown(square, beside);
     const Heights heights = heights_in(reach, wide);
     return {wide.west, wide.south, heights.low - below,
             wide.east, wide.north, heights.high + above};
@@ -170,7 +168,7 @@ std::vector<std::uint8_t> subtree_of(const Tiling& tiling, const TileIndex& root
                 const TileIndex tile{root.level + level, (root.x << level) + x,
                                      (root.y << level) + y};
                 const std::size_t i = tiles_above(level) + morton(x, y, level);
-                boxes[i] = numbers_of(box_of(tiling, tile, layer, reach));
+                boxes[i] = box_of(tiling, tile, layer, reach).numbers();
                 if (!has_content(layer, tiling.side(tile.level))) continue;
                 contents[i / 8] = static_cast<std::uint8_t>(contents[i / 8] | 1U << (i % 8));
                 ++with_content;

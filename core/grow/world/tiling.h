@@ -1,6 +1,7 @@
 // The tree of the tiles of a world: squares, each divided into four, as 3D Tiles with implicit tiling name them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct Tiling {
 /// A box about axes east, north and up, metres.
 struct TileBox {
     double west = 0.0, south = 0.0, low = 0.0, east = 0.0, north = 0.0, high = 0.0;
+
+    /// Returns it as 3D Tiles has it: its middle, and half of its axes.
+    [[nodiscard]] std::array<double, 12> numbers() const;
 };
 
 /// How far what stands on the ground of a world reaches.

@@ -37,7 +37,7 @@ TEST(TileGround, IsAClosedSlabOfTheSameNumberOfVertices) {
         PlotContent of = content(world, size);
         of.centre = {};
         const FloorHeights floor(*world.ground, of.seed, of.micro, {});
-        const Mesh slab = tile_slab(world, of, floor, 0.0);
+        const Mesh slab = TileGround(world, of).slab(floor, 0.0);
         expect_valid(slab);
         if (vertices == 0) vertices = slab.positions.size();
         EXPECT_EQ(slab.positions.size(), vertices);
@@ -50,7 +50,7 @@ TEST(TileGround, OfTheWholeWorldHasCrownsWhereTreesAre) {
         PlotContent of = content(world, 256.0);
         of.centre = {};
         const FloorHeights floor(*world.ground, of.seed, of.micro, {});
-        const Mesh slab = tile_slab(world, of, floor, 0.0);
+        const Mesh slab = TileGround(world, of).slab(floor, 0.0);
         double above = 0.0;
         const auto nodes = static_cast<std::size_t>(tile_nodes);
         for (std::size_t i = 0; i < nodes * nodes; ++i) {
@@ -70,8 +70,8 @@ TEST(TileGround, FromAfarWoodsAreGreenInSummerAndBrownInWinter) {
     summer.centre = {};
     PlotContent winter = summer;
     winter.time = time_of(80, 15);
-    const std::array<double, 3> green = mean_colour(tile_images(world, summer, atlas())),
-                                brown = mean_colour(tile_images(world, winter, atlas()));
+    const std::array<double, 3> green = mean_colour(TileGround(world, summer).images(atlas())),
+                                brown = mean_colour(TileGround(world, winter).images(atlas()));
     EXPECT_GT(green[1], 1.1 * green[0]);
     EXPECT_GT(brown[0], brown[1]);
     EXPECT_GT(brown[1], brown[2]);
@@ -79,10 +79,10 @@ TEST(TileGround, FromAfarWoodsAreGreenInSummerAndBrownInWinter) {
 
 TEST(TileGround, LooksAlikeFromNearAndFromAfar) {
     const World& world = land("meadow");
-    const std::array<double, 3> near =
-                                    mean_colour(tile_images(world, content(world, 8.0), atlas())),
-                                far =
-                                    mean_colour(tile_images(world, content(world, 16.0), atlas()));
+    const std::array<double, 3> near = mean_colour(
+                                    TileGround(world, content(world, 8.0)).images(atlas())),
+                                far = mean_colour(
+                                    TileGround(world, content(world, 16.0)).images(atlas()));
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(near[k], far[k], 30.0) << k;
 }
 

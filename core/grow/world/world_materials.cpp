@@ -1,0 +1,90 @@
+#include "core/grow/world/world_materials.h"
+
+#include <memory>
+
+#include "core/grow/leaf.h"
+#include "core/grow/mushroom.h"
+#include "core/grow/names.h"
+#include "core/grow/painting.h"
+#include "core/grow/translucency.h"
+#include "core/grow/tree.h"
+#include "core/grow/wood.h"
+
+namespace sporeprint {
+
+std::size_t WorldMaterials::named(const std::string& name,
+                                  const std::function<void(GlbMaterial&)>& set) {
+    const auto [found, is_new] = known_.try_emplace(name, scene_.materials.size());
+    if (is_new) {
+        scene_.materials.push_back({.name = name});
+        set(scene_.materials.back());
+    }
+    return found->second;
+}
+
+void WorldMaterials::attach(GlbMaterial& material, Textures textures,
+                            const std::function<ImageUrls()>& urls, const Paint& paint) {
+    images_.push_back(attach_images(material, textures, file_,
+                                    has_addresses(textures) ? urls() : ImageUrls(), execution_,
+                                    paint));
+}
+
+std::size_t WorldMaterials::plain(const std::string& name) {
+    return named(name, [](GlbMaterial&) {});
+}
+
+std::size_t WorldMaterials::ground(const std::string& name,
+                                   const std::function<RawImages()>& paint) {
+    const Textures own = textures_ == Textures::none ? Textures::none : Textures::embedded;
+    return named(name, [&](GlbMaterial& material) {
+        attach(material, own, nullptr, [&](ImageFormat format) {
+            execution_.observer(Step::paint);
+            const RawImages painted = paint();
+            throw_if_cancelled(execution_);
+            return std::make_shared<const ImageSet>(encoded(painted, format, execution_.parallel));
+        });
+    });
+}
+
+std::size_t WorldMaterials::bark(const TreeSpec& tree) {
+    const TreePaint paint = paint_of(tree.params);
+    return named(bark_name(tree.preset, paint, textures_), [&](GlbMaterial& material) {
+        material.repeats_u = true;
+        attach(
+            material, textures_, [&] { return urls_.bark(tree); },
+            [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+    });
+}
+
+std::size_t WorldMaterials::leaves(const std::string& name, const std::string& leaf,
+                                   const LeafPaint& paint) {
+    return named(leaf_material_name(name, paint, textures_), [&](GlbMaterial& material) {
+        material.transmission = transmission_of_leaves(file_);
+        attach(
+            material, textures_, [&] { return urls_.leaves(leaf, paint); },
+            [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+    });
+}
+
+std::size_t WorldMaterials::wood(const WoodPaint& paint) {
+    return named(wood_name(paint, textures_), [&](GlbMaterial& material) {
+        material.repeats_u = true;
+        attach(
+            material, textures_, [&] { return urls_.wood(paint); },
+            [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+    });
+}
+
+std::size_t WorldMaterials::skin(const MushroomSpec& spec, const Individual& individual) {
+    return named(skin_name(spec), [&](GlbMaterial& material) {
+        material.look = look_of(individual.model);
+        attach(
+            material, textures_, [&] { return urls_.skin(spec); },
+            [&](ImageFormat format) {
+                return painted_images(paint_spec_of(spec, atlas_, execution_.caches), execution_,
+                                      format);
+            });
+    });
+}
+
+}  // namespace sporeprint
