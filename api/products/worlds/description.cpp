@@ -133,10 +133,7 @@ Value describe_weather(const WorldSpec& spec, const std::string& text, int numbe
 Plan plan_description(RouteCall& call) {
     Context& context = call.context;
     const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
-    std::vector<Problem> problems;
-    const Pairs query = query_of_world(call.target, call.errors);
-    QueryReader(query, problems).refuse_the_rest();
-    call.errors.add(400, problems);
+    refuse_query_of_world(call.target, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     Resource resource = world_resource(context, requested, ".json", {});
     resource.file_name = requested.spec.preset + ".json";

@@ -71,13 +71,13 @@ class EditReader {
             const AtlasEntry* const entry = atlas_.find(id);
             if (!entry) continue;
             SpeciesEcology own{entry->species.ecology, entry->species.facts.season};
-            const SpeciesEcology usual = sorted(own);
+            const SpeciesEcology usual = settled(own);
             std::vector<Problem> problems;
             sporeprint::read(members, own, Info{.name = ""}, path, problems);
             add_problems(problems, own, path, true, errors_);
             check_kinds(own.ecology, path);
             without_negative_zero(own);
-            own = sorted(std::move(own));
+            own = settled(std::move(own));
             if (own != usual) edits_.ecologies.emplace(id, std::move(own));
         }
     }
@@ -126,12 +126,6 @@ class EditReader {
     }
 
   private:
-    static SpeciesEcology sorted(SpeciesEcology own) {
-        std::ranges::sort(own.months);
-        own.months.erase(std::unique(own.months.begin(), own.months.end()), own.months.end());
-        return own;
-    }
-
     bool is_object(const Value& json, const char* path) {
         if (json.is_object()) return true;
         errors_.add(400, path, "expected an object, got " + shown(json));
@@ -140,11 +134,7 @@ class EditReader {
 
     bool lives_here(std::string_view id, const std::string& path) {
         if (std::ranges::find(species_, id) != species_.end()) return true;
-        std::string list;
-        for (const std::string& one : species_) (list += list.empty() ? "" : ", ") += one;
-        errors_.add(422, path,
-                    in_quotes(id) + " does not live in this world; its fungi are " +
-                        (list.empty() ? "none" : list));
+        errors_.add(422, path, not_of_world(id, species_));
         return false;
     }
 

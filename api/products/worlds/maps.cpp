@@ -186,12 +186,8 @@ std::string read_species(const MapRequest& request, std::string_view text,
         species_in(request.world.spec.params.fungi.species, "species", problems);
     if (text.empty() && !known.empty()) return known.front();
     if (std::find(known.begin(), known.end(), text) != known.end()) return std::string(text);
-    std::string list;
-    for (const std::string& id : known) (list += list.empty() ? "" : ", ") += id;
     errors.add(422, "species",
-               known.empty()
-                   ? "no fungus lives in this world"
-                   : in_quotes(text) + " does not live in this world; its fungi are " + list);
+               known.empty() ? "no fungus lives in this world" : not_of_world(text, known));
     return {};
 }
 

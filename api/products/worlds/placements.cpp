@@ -95,11 +95,7 @@ std::vector<std::string> read_species(std::string_view text, const WorldParams& 
     errors.add(400, problems);
     for (const std::string& id : wanted) {
         if (std::ranges::find(known, id) != known.end()) continue;
-        std::string list;
-        for (const std::string& one : known) (list += list.empty() ? "" : ", ") += one;
-        errors.add(422, "species",
-                   in_quotes(id) + " does not live in this world; its fungi are " +
-                       (list.empty() ? "none" : list));
+        errors.add(422, "species", not_of_world(id, known));
     }
     return wanted == known ? unused : wanted;
 }

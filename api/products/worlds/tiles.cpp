@@ -154,10 +154,7 @@ LayerRequest read_layer(const RouteCall& call, ValidationErrors& errors) {
     request.time = read_layer_time(call.captured[2], request.tile.layer, errors);
     request.tile.time = request.time.noon();
     request.tile.tiling.extent = request.world.spec.params.extent;
-    std::vector<Problem> problems;
-    const auto query = query_of_world(call.target, errors);
-    QueryReader(query, problems).refuse_the_rest();
-    errors.add(400, problems);
+    refuse_query_of_world(call.target, errors);
     return request;
 }
 
@@ -180,12 +177,8 @@ TileReach reach_in(const WorldParams& params, const Atlas& atlas, const Ground& 
 }
 
 Value box_value(const TileBox& box) {
-    const double x = 0.5 * (box.west + box.east), y = 0.5 * (box.south + box.north),
-                 z = 0.5 * (box.low + box.high);
-    return Value::object().set(
-        "box", Value(Value::Array{x, y, z, 0.5 * (box.east - box.west), 0.0, 0.0, 0.0,
-                                  0.5 * (box.north - box.south), 0.0, 0.0, 0.0,
-                                  0.5 * (box.high - box.low)}));
+    const std::array<double, 12> numbers = box.numbers();
+    return Value::object().set("box", Value(Value::Array(numbers.begin(), numbers.end())));
 }
 
 /// Returns the box of all layers.
@@ -315,68 +308,63 @@ TileLinks links_of(const Context& context, const ExecutionContext& execution) {
     return links;
 }
 
-}  // namespace
-
-Plan plan_tileset(RouteCall& call) {
+/// Plans the response to a request for a tileset.
+///
+/// layers  of one world
+/// folder  of the tileset below that of the world
+Plan plan_tileset_of(RouteCall& call, std::vector<LayerRequest> layers, const std::string& folder,
+                     const std::string& file_name) {
     Context& context = call.context;
-    const WorldRequest world = read_world(call.captured[0], *context.atlas, call.errors);
-    const TileProfile profile = read_name(call.captured[1], "profile", all_profiles, call.errors);
-    const WorldTimeRead time =
-        read_world_day(call.captured[2], "fungi are those of a day; add it", call.errors);
-    std::vector<Problem> problems;
-    const auto query = query_of_world(call.target, call.errors);
-    QueryReader(query, problems).refuse_the_rest();
-    call.errors.add(400, problems);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    const std::string ending =
-        '/' + std::string(name(profile)) + '/' + time.text() + "/tileset.json";
-    Resource resource = world_resource(context, world, ending, {});
-    resource.file_name = world.spec.preset + "_tileset_" + time.text() + ".json";
+    const WorldRequest& world = layers.front().world;
+    const WorldParams& params = world.spec.params;
+    Resource resource = world_resource(context, world, folder + "tileset.json", {});
+    resource.file_name = file_name + ".json";
     resource.estimate_cost = [](const Caches&) { return Cost{.base = 3'000}; };
-    const std::string folder =
+    const std::string of_world =
         folder_of(Worlds::all) + world_text(world.spec, *context.atlas, resource.version);
-    make_of_ground(resource, world.spec.params,
-                   [&context, params = world.spec.params, profile, time, folder,
-                    address = resource.address](const Ground& ground) {
-                       const Tiling tiling{params.extent};
-                       const TileReach reach = reach_in(params, *context.atlas, ground);
-                       Value::Array layers;
-                       for (const PlotLayer layer : all_layers) {
-                           const LayerTime of_layer = time_of_layer(layer, time.year, time.day);
-                           layers.push_back(root_of_layer(
-                               tiling, layer, reach,
-                               context.responses.link(folder + '/' + name(profile) + '/' +
-                                                      of_layer.text() + '/' + name(layer) + '/')));
-                       }
-                       return slice_of(dump(tileset_of(
-                           tiling, reach, context.responses.link(address), std::move(layers))));
-                   });
+    make_of_ground(
+        resource, params,
+        [&context, params, layers = std::move(layers), of_world,
+         address = resource.address](const Ground& ground) {
+            const Tiling tiling{params.extent};
+            const TileReach reach = reach_in(params, *context.atlas, ground);
+            Value::Array roots;
+            for (const LayerRequest& layer : layers)
+                roots.push_back(root_of_layer(tiling, layer.tile.layer, reach,
+                                              context.responses.link(of_world + layer.folder())));
+            return slice_of(
+                dump(tileset_of(tiling, reach, context.responses.link(address), std::move(roots))));
+        });
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
 
+}  // namespace
+
+Plan plan_tileset(RouteCall& call) {
+    const WorldRequest world = read_world(call.captured[0], *call.context.atlas, call.errors);
+    const TileProfile profile = read_name(call.captured[1], "profile", all_profiles, call.errors);
+    const WorldTimeRead time =
+        read_world_day(call.captured[2], "fungi are those of a day; add it", call.errors);
+    refuse_query_of_world(call.target, call.errors);
+    std::vector<LayerRequest> layers;
+    for (const PlotLayer layer : all_layers) {
+        LayerRequest one{world, {}, time_of_layer(layer, time.year, time.day)};
+        one.tile.profile = profile;
+        one.tile.layer = layer;
+        layers.push_back(std::move(one));
+    }
+    return plan_tileset_of(call, std::move(layers),
+                           '/' + std::string(name(profile)) + '/' + time.text() + '/',
+                           world.spec.preset + "_tileset_" + time.text());
+}
+
 Plan plan_layer_tileset(RouteCall& call) {
-    Context& context = call.context;
-    const auto request = std::make_shared<const LayerRequest>(read_layer(call, call.errors));
-    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    Resource resource =
-        world_resource(context, request->world, request->folder() + "tileset.json", {});
-    resource.file_name = request->world.spec.preset + '_' + name(request->tile.layer) + '_' +
-                         request->time.text() + "_tileset.json";
-    resource.estimate_cost = [](const Caches&) { return Cost{.base = 3'000}; };
-    const std::string folder = folder_of(Worlds::all) +
-                               world_text(request->world.spec, *context.atlas, resource.version) +
-                               request->folder();
-    make_of_ground(resource, request->world.spec.params,
-                   [&context, request, folder, address = resource.address](const Ground& ground) {
-                       const Tiling& tiling = request->tile.tiling;
-                       const TileReach reach =
-                           reach_in(request->world.spec.params, *context.atlas, ground);
-                       Value::Array layers{root_of_layer(tiling, request->tile.layer, reach,
-                                                         context.responses.link(folder))};
-                       return slice_of(dump(tileset_of(
-                           tiling, reach, context.responses.link(address), std::move(layers))));
-                   });
-    return plan_resource(context, call.request, std::move(resource), call.errors);
+    LayerRequest layer = read_layer(call, call.errors);
+    const std::string folder = layer.folder(), file_name = layer.world.spec.preset + '_' +
+                                                           name(layer.tile.layer) + '_' +
+                                                           layer.time.text() + "_tileset";
+    return plan_tileset_of(call, {std::move(layer)}, folder, file_name);
 }
 
 Plan plan_subtree(RouteCall& call) {

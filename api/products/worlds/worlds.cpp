@@ -121,6 +121,20 @@ std::vector<std::pair<std::string, std::string>> query_of_world(const Target& ta
     return query;
 }
 
+void refuse_query_of_world(const Target& target, ValidationErrors& errors) {
+    std::vector<Problem> problems;
+    const Pairs query = query_of_world(target, errors);
+    QueryReader(query, problems).refuse_the_rest();
+    errors.add(400, problems);
+}
+
+std::string not_of_world(std::string_view id, std::span<const std::string> known) {
+    std::string list;
+    for (const std::string& one : known) (list += list.empty() ? "" : ", ") += one;
+    return in_quotes(id) + " does not live in this world; its fungi are " +
+           (list.empty() ? "none" : list);
+}
+
 Resource world_resource(const Context& context, const WorldRequest& requested,
                         const std::string& ending, const std::string& query) {
     Resource resource;

@@ -63,6 +63,14 @@ struct WorldRequest {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> query_of_world(
     const Target& target, ValidationErrors& errors);
 
+/// Refuses the query of a route of worlds that has none.
+void refuse_query_of_world(const Target& target, ValidationErrors& errors);
+
+/// Returns why a species is refused that is not among the fungi of a world.
+///
+/// known  its fungi
+[[nodiscard]] std::string not_of_world(std::string_view id, std::span<const std::string> known);
+
 /// Returns the JSON resource of a world that has an ending, such as "/weather.json", and a canonical query. It has no
 /// address if the world has edits.
 [[nodiscard]] Resource world_resource(const Context& context, const WorldRequest& requested,
