@@ -3,52 +3,21 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, patience, serverUrl } from "./support.mjs";
+import { PageOfItsOwn, patience } from "./support.mjs";
 
-const base = serverUrl({ everySpecies: true });
 const token = process.env.SPOREPRINT_TOKEN ?? "";
 const json = { "Content-Type": "application/json" };
 const founders = "?a=boletus_edulis&b=amanita_muscaria&seed=1&share=0.5&mutation=0.2";
 
-let browser;
-let shared;
+const own = new PageOfItsOwn("breed", founders, { viewport: { width: 640, height: 480 } });
+const openAlone = own.openAlone.bind(own);
+const open = own.open.bind(own);
+const at = own.at.bind(own);
+const { base } = own;
 
-before(async () => {
-    browser = await launchBrowser();
-});
+before(() => own.launch());
 
-after(() => browser?.close());
-
-/** Opens the page in a browser of its own, which has no family tree yet. */
-async function openAlone(query) {
-    const viewport = { width: 640, height: 480 };
-    const context = await browser.newContext({ reducedMotion: "reduce", viewport });
-    const page = await context.newPage();
-    page.setDefaultTimeout(patience);
-    const log = logEvents(page);
-    // Software WebGL keeps a loaded machine busy for long.
-    await page.goto(`${base}/breed${query}`, { waitUntil: "commit" });
-    await ready(page);
-    return { page, log };
-}
-
-/** Returns the page that most tests share, since software WebGL takes seconds to begin, at a couple. */
-async function open(query = founders, state = "ready") {
-    shared ??= await openAlone(founders);
-    const { page, log } = shared;
-    for (const list of Object.values(log)) list.length = 0;
-    await page.evaluate((address) => {
-        history.pushState(null, "", address);
-        dispatchEvent(new PopStateEvent("popstate"));
-    }, query);
-    await at(page, state);
-    return shared;
-}
-
-/** Waits until the page is ready or failed. */
-function at(page, state) {
-    return page.waitForFunction((wanted) => document.documentElement.dataset.breed === wanted, state, { timeout: patience });
-}
+after(() => own.close());
 
 const ready = (page) => at(page, "ready");
 

@@ -103,3 +103,53 @@ export async function galleryComplete(page) {
         },
     );
 }
+
+/** A page with an address of its own, in a browser of its own. It says in data-NAME of its root how far it is. */
+export class PageOfItsOwn {
+    /**
+     * @param {string} name of the page, also its address
+     * @param {string} first query of the window that tests share
+     * @param {object} context options of its windows
+     */
+    constructor(name, first, context) {
+        Object.assign(this, { name, first, context, base: serverUrl({ everySpecies: true }) });
+    }
+
+    async launch() {
+        this.browser = await launchBrowser();
+    }
+
+    close() {
+        return this.browser?.close();
+    }
+
+    /** Opens the page in a window of its own, which has no storage yet. */
+    async openAlone(query, viewport = this.context.viewport) {
+        const context = await this.browser.newContext({ reducedMotion: "reduce", ...this.context, viewport });
+        const page = await context.newPage();
+        page.setDefaultTimeout(patience);
+        const log = logEvents(page);
+        // Software WebGL keeps a loaded machine busy for long.
+        await page.goto(`${this.base}/${this.name}${query}`, { waitUntil: "commit" });
+        await this.at(page, "ready");
+        return { page, log };
+    }
+
+    /** Returns the window that most tests share, since software WebGL takes seconds to begin, at an address. */
+    async open(query = this.first, state = "ready") {
+        this.shared ??= await this.openAlone(this.first);
+        const { page, log } = this.shared;
+        for (const list of Object.values(log)) list.length = 0;
+        await page.evaluate((address) => {
+            history.pushState(null, "", address);
+            dispatchEvent(new PopStateEvent("popstate"));
+        }, query);
+        await this.at(page, state);
+        return this.shared;
+    }
+
+    /** Waits until the page is ready or failed. */
+    at(page, state) {
+        return page.waitForFunction(([name, wanted]) => document.documentElement.dataset[name] === wanted, [this.name, state], { timeout: patience });
+    }
+}

@@ -3,48 +3,19 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, patience, screenshotFolder, serverUrl } from "./support.mjs";
+import { PageOfItsOwn, patience, screenshotFolder } from "./support.mjs";
 
-const base = serverUrl({ everySpecies: true });
 const beech = "?world=beech,seed=7&x=20&y=-5&year=80&day=270";
 
-let browser;
-let shared;
+const own = new PageOfItsOwn("world", beech, { viewport: { width: 1180, height: 760 }, permissions: ["clipboard-read", "clipboard-write"] });
+const openAlone = own.openAlone.bind(own);
+const open = own.open.bind(own);
+const at = own.at.bind(own);
+const { base } = own;
 
-before(async () => {
-    browser = await launchBrowser();
-});
+before(() => own.launch());
 
-after(() => browser?.close());
-
-/** Opens the page in a window of its own. */
-async function openAlone(query, viewport = { width: 1180, height: 760 }) {
-    const context = await browser.newContext({ reducedMotion: "reduce", viewport, permissions: ["clipboard-read", "clipboard-write"] });
-    const page = await context.newPage();
-    page.setDefaultTimeout(patience);
-    const log = logEvents(page);
-    await page.goto(`${base}/world${query}`, { waitUntil: "commit" });
-    await at(page, "ready");
-    return { page, log };
-}
-
-/** Returns the page that most tests share, since software WebGL takes seconds to begin, at an address. */
-async function open(query = beech, state = "ready") {
-    shared ??= await openAlone(beech);
-    const { page, log } = shared;
-    for (const list of Object.values(log)) list.length = 0;
-    await page.evaluate((address) => {
-        history.pushState(null, "", address);
-        dispatchEvent(new PopStateEvent("popstate"));
-    }, query);
-    await at(page, state);
-    return shared;
-}
-
-/** Waits until the page is ready or failed. */
-function at(page, state) {
-    return page.waitForFunction((wanted) => document.documentElement.dataset.world === wanted, state, { timeout: patience });
-}
+after(() => own.close());
 
 /** Does something, and waits until the page shows what follows from it. */
 async function settled(page, act) {
