@@ -6,7 +6,8 @@ WORKDIR /src
 COPY server/install server/packages.txt server/
 RUN server/install web
 COPY web_viewer/package.json web_viewer/package-lock.json web_viewer/
-RUN cd web_viewer && npm ci --omit=dev --no-audit --no-fund
+# Packages of the page have optional peers, of 120 MB, that it does not use.
+RUN cd web_viewer && npm ci --omit=dev --legacy-peer-deps --no-audit --no-fund
 COPY web_viewer web_viewer
 RUN cd web_viewer && npm run build
 
