@@ -15,6 +15,7 @@
 #include "core/math/elementary.h"
 #include "core/mesh/measure.h"
 #include "core/mesh/tangents.h"
+#include "core/plant/leaf_colour.h"
 #include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
@@ -114,26 +115,45 @@ void add_spike(const Tree& tree, const Axis& axis, Bark& bark) {
     for (const std::uint32_t corner : {7U, 9U, 8U}) mesh.indices.push_back(shift + corner);
 }
 
-/// Returns the place of a lamina that is farthest from veins, border and what is eaten: its colour is
-/// that of the lamina.
+/// A place of a lamina at which its colour is looked at.
+struct PlainPlace {
+    glm::dvec2 place{0.0, 0.45};
+    double clear = 0.0;  ///< distance from veins, border and what is eaten
+    double turn = 0.0;   ///< how early it turns in autumn, see autumn_depth()
+};
+
+/// Returns the place of a lamina whose colour is that of the lamina through all seasons: as far from veins, border and
+/// what is eaten as a clump needs, or else as far as there is, and of these one that turns when half of the lamina has.
 glm::dvec2 plain_place_of(const LeafShape& shape, const Lamina& lamina) {
     const LaminaSampler sampler(lamina);
     const std::vector<EatenSpot> spots = spots_of(shape, 1);
-    glm::dvec2 found(0.0, 0.45);
-    double farthest = 0.0;
+    std::vector<PlainPlace> places;
+    std::vector<double> turns;  // of all of the lamina
     constexpr int steps = 40;
     for (int i = 0; i < steps; ++i)
         for (int k = 0; k < steps; ++k) {
-            const glm::dvec2 place(0.6 * (i + 0.5) / steps, 0.2 + 0.6 * (k + 0.5) / steps);
-            const LaminaPlace at = sampler.at(place);
-            if (!at.inside || at.affinity > 0.7) continue;
-            double clear = std::min({at.from_main, at.from_side, 0.1});
-            for (const EatenSpot& spot : spots) clear = std::min(clear, spot.outside(place));
-            if (clear <= farthest) continue;
-            farthest = clear;
-            found = place;
+            PlainPlace one{{0.6 * (i + 0.5) / steps, (k + 0.5) / steps}};
+            const LaminaPlace at = sampler.at(one.place);
+            if (!at.inside) continue;
+            one.turn = autumn_depth(at);
+            turns.push_back(one.turn);
+            one.clear = std::min({at.from_main, at.from_side, 0.1});
+            for (const EatenSpot& spot : spots)
+                one.clear = std::min(one.clear, spot.outside(one.place));
+            if (at.affinity <= 0.85) places.push_back(one);
         }
-    return found;
+    if (places.empty()) return PlainPlace().place;
+    std::ranges::nth_element(turns, turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2));
+    const double half = turns[turns.size() / 2];
+    double most = 0.0;
+    for (const PlainPlace& one : places) most = std::max(most, one.clear);
+    const double enough = std::min(most, 2.0 * plain_reach);
+    const PlainPlace* found = nullptr;
+    for (const PlainPlace& one : places)
+        if (one.clear >= enough &&
+            (found == nullptr || std::abs(one.turn - half) < std::abs(found->turn - half)))
+            found = &one;
+    return found->place;
 }
 
 /// Returns a double pyramid about the origin: its base in the plane square to y has corners at a

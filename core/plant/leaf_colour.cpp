@@ -81,6 +81,10 @@ glm::dvec3 LeafColourMap::lamina_colour(const Season& season, const LaminaPlace&
                  colours.homothety_share * gradation(colours.homothety, place.homothety));
 }
 
+double autumn_depth(const LaminaPlace& place) {
+    return std::clamp(0.6 * place.affinity + 0.4 * place.homothety, 0.0, 1.0);
+}
+
 LeafColourMap::Faces LeafColourMap::at(const LaminaPlace& place, double autumn) const {
     // Places far from veins turn first, by up to a third of a season.
     constexpr double lag = 0.17, whole = 0.5 - lag;
@@ -97,7 +101,7 @@ LeafColourMap::Faces LeafColourMap::at(const LaminaPlace& place, double autumn) 
         if (turning > 0.0 && turning < 1.0) colour = mixed(colour, of(seasons_[1]), turning);
         return fallen > 0.0 ? mixed(colour, of(seasons_[2]), fallen) : colour;
     };
-    const double far = std::clamp(0.6 * place.affinity + 0.4 * place.homothety, 0.0, 1.0);
+    const double far = autumn_depth(place);
     const bool beyond = place.affinity >= 1.0 && place.homothety >= 1.0;
     glm::dvec3 colour = seasonal(
         [&](const Season& one) { return beyond ? one.beyond : lamina_colour(one, place); }, far);

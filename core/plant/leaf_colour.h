@@ -95,6 +95,10 @@ struct LeafPalette {
 };
 static_assert(well_described<LeafPalette>());
 
+/// Returns how early a place turns in autumn: 1 at the border of the tip, which turns first, 0 at the root, which turns
+/// last.
+[[nodiscard]] double autumn_depth(const LaminaPlace& place);
+
 /// Maps positions on a lamina to colours; the colours of the palette are converted to linear light
 /// once.
 class LeafColourMap {

@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/images.h"
 #include "core/mesh/measure.h"
+#include "core/plant/leaf_image.h"
+#include "core/plant/leaf_shell.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint::plant_far_tree_test {
@@ -68,6 +71,49 @@ TEST(FarTree, ClumpsShowOneColourOfTheirLeaf) {
             }
             EXPECT_GT(high.x, low.x);
             EXPECT_LT(std::max(high.x - low.x, high.y - low.y), 0.02F);
+        }
+    }
+}
+
+/// Returns the colour of an image at a place, sRGB 0..255.
+glm::dvec3 colour_at(const RawImages& images, glm::dvec2 at) {
+    const auto texel = [&](double place) {
+        return static_cast<std::size_t>(std::clamp(place, 0.0, 0.9999) * images.side);
+    };
+    const std::size_t i = 3 * (texel(at.y) * static_cast<std::size_t>(images.side) + texel(at.x));
+    const Bytes& rgb = images.rgb[0];
+    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+}
+
+TEST(FarTree, ClumpsHaveTheColourOfTheirLeafAlsoInAutumn) {
+    for (const TreePreset& preset : tree_presets()) {
+        const LeafPreset& leaf = *leaf_preset(preset.leaf.id);
+        const Lamina lamina = lamina_of(leaf.shape.venation, leaf_steps(leaf.shape.venation, 0));
+        const LeafChart chart = chart_of(lamina);
+        const LaminaSampler sampler(lamina);
+        const FarTree far = far_of(preset, 1, 2);
+        glm::dvec2 clump(0.0);
+        double corners = 0.0;
+        for (const glm::vec2& at : far.foliage.leaf.texture_coordinates)
+            if (at.x < 0.5F) {
+                clump += glm::dvec2(at);
+                corners += 1.0;
+            }
+        for (const double autumn : {0.0, 0.15, 0.25, 0.35, 0.5, 0.75}) {
+            SCOPED_TRACE(preset.id.string() + ' ' + std::to_string(autumn));
+            const RawImages images = leaf_images(leaf.shape, leaf.palette, autumn, 1, 128);
+            glm::dvec3 sum(0.0);
+            double places = 0.0;
+            for (int i = 0; i < 60; ++i)
+                for (int k = 0; k < 60; ++k) {
+                    const glm::dvec2 place(0.6 * (i + 0.5) / 60, (k + 0.5) / 60);
+                    if (!sampler.at(place).inside) continue;
+                    sum += colour_at(images, glm::dvec2(chart.texture_point(place, true)));
+                    places += 1.0;
+                }
+            const glm::dvec3 found = colour_at(images, clump / corners), mean = sum / places;
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR(found[channel], mean[channel], 36.0) << channel;
         }
     }
 }
