@@ -15,6 +15,7 @@
 #include "core/math/random.h"
 #include "core/problems.h"
 #include "core/world/floor_texels.h"
+#include "core/world/grass_season.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/world/floor_kernels.inl"
@@ -174,11 +175,13 @@ class FloorPainter {
     std::vector<PackedStamp> stamps_;
     std::vector<float> leaves_;  ///< at the nodes of the field, of each stamp
     float fading_ = 0.0F, wet_ = 0.5F;
+    float green_ = 0.86F;  ///< share of the blades of grass that are not withered
+    float fresh_ = 1.0F;   ///< their brightness
     int step_bits_ = finest_step_bits;
     glm::vec3 leaf_mean_{0.0F};  ///< colour of leaves as they look from afar
 
     void set_columns();
-    void set_cover();
+    void set_cover(double herbs);
     void set_stamps();
     void add_mean(const LeafStamp& stamp);
 
@@ -210,7 +213,10 @@ FloorPainter::FloorPainter(const FloorPaint& paint, RawImages& images)
     stride_ = static_cast<std::size_t>(paint.side + 2 * margin_) + floor_padding;
     step_bits_ = bits_of_step(*paint.cover);
     set_columns();
-    set_cover();
+    const GrassSeason grass = grass_on(paint.day);
+    green_ = static_cast<float>(1.0 - grass.dry);
+    fresh_ = static_cast<float>(grass.fresh);
+    set_cover(grass.herbs);
     set_stamps();
     const double since = (paint.day + 365.0 - 305.0) / 365.0;
     fading_ = static_cast<float>(std::min(1.0, since - std::floor(since)));
@@ -252,7 +258,7 @@ void FloorPainter::set_columns() {
     }
 }
 
-void FloorPainter::set_cover() {
+void FloorPainter::set_cover(double herbs) {
     shares_.reserve(paint_.cover->nodes.size());
     chances_.reserve(paint_.cover->nodes.size());
     const auto single = [](double value) { return static_cast<float>(value); };
@@ -262,7 +268,7 @@ void FloorPainter::set_cover() {
                            single(at.grass + 0.5 * at.herb), single(at.rock), single(at.water)});
         chances_.push_back({single(1.05 * leaves / (1.0 - 0.7 * at.moss)), single(at.needles),
                             single(0.12 * (leaves + at.needles + 0.5 * at.moss)),
-                            single(0.9 * at.grass), single(at.herb)});
+                            single(0.9 * at.grass), single(herbs * at.herb)});
     }
 }
 
@@ -482,7 +488,8 @@ void FloorPainter::paint_piece(FloorCanvas& canvas, const Layer& layer, const Pi
         }
         case Layer::Piece::blade: {
             const glm::dvec2 half = (0.012 + 0.026 * size) * along;
-            stroke.colour = shade(hue > 0.86F ? blade_dry : glm::mix(blade_dark, blade_pale, hue));
+            stroke.colour = shade(
+                hue > green_ ? blade_dry : fresh_ * glm::mix(blade_dark, blade_pale, hue / green_));
             paint_stroke(canvas, at - half, at + half, 0.0045, stroke);
             break;
         }
@@ -591,8 +598,9 @@ void FloorPainter::finish(const FloorCanvas& canvas, int from, int to) const {
     finish.margin = margin_;
     finish.radius = margin_ - 1;
     finish.per_slope = static_cast<float>(0.5 / texel_);
-    finish.bright = 1.12F - 0.24F * wet_;
-    finish.smoothness = 0.12F * wet_ * wet_;
+    // Wet soil reflects about half of what it does when it is dry [Lobell2002].
+    finish.bright = 1.22F - 0.5F * wet_;
+    finish.smoothness = 0.3F * wet_ * wet_;
     finish.sums = sums.data();
     finish.channels = channels.data();
     for (int row = from; row < to; ++row) {

@@ -17,6 +17,7 @@
 #include "core/math/random.h"
 #include "core/params/canonical.h"
 #include "core/plant/trunk_piece.h"
+#include "core/world/grass_season.h"
 #include "core/world/leaf_stamp.h"
 #include "core/world/tree_growth.h"
 
@@ -327,6 +328,7 @@ Mesh grass_of(const PlotContent& content, const PlotFrame& frame, const CoverFie
     // Too many of them are thinned out evenly.
     const std::size_t stride =
         1 + static_cast<std::size_t>(tufts.size() * of_tuft / std::max<std::uint64_t>(most, 1));
+    const GrassSeason season = grass_on(day_of_year(content.time));
     Mesh mesh;
     for (std::size_t i = 0; i < tufts.size(); i += stride) {
         const Tuft& tuft = tufts[i];
@@ -345,10 +347,11 @@ Mesh grass_of(const PlotContent& content, const PlotFrame& frame, const CoverFie
             const glm::dvec3 tip = middle + length * (0.15 + 0.45 * bend) * outwards +
                                    glm::dvec3(0.0, 0.45 * length * (1.0 - bend), 0.0);
             const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-            const double dry = hue > 0.88 ? 1.0 : 0.0;
-            const glm::dvec3 green =
-                glm::mix(glm::dvec3(0.035, 0.075, 0.012), glm::dvec3(0.15, 0.22, 0.04), hue);
-            const glm::dvec3 tint = glm::mix(green, glm::dvec3(0.32, 0.26, 0.12), dry);
+            const double green = 1.0 - season.dry;
+            const glm::dvec3 tint =
+                hue > green ? glm::dvec3(0.32, 0.26, 0.12)
+                            : season.fresh * glm::mix(glm::dvec3(0.035, 0.075, 0.012),
+                                                      glm::dvec3(0.15, 0.22, 0.04), hue / green);
             const auto add = [&](const glm::dvec3& at, const glm::dvec3& normal, double light) {
                 mesh.positions.emplace_back(at);
                 mesh.normals.emplace_back(glm::normalize(normal));

@@ -339,7 +339,7 @@ class TileScene {
         for (std::size_t shape = 0; shape < places.size(); ++shape) {
             if (places[shape].empty()) continue;
             const std::size_t blades = materials_.plain("grass");
-            meshes_.push_back(tuft_mesh(shape));
+            meshes_.push_back(tuft_mesh(shape, grass_on(day_of_year(content_.time))));
             add_repeated("grass_" + std::to_string(shape + 1), {}, meshes_.back(), blades,
                          places[shape]);
         }

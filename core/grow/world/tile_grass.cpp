@@ -24,7 +24,7 @@ constexpr glm::vec3 green_dark(0.035F, 0.075F, 0.012F), green_pale(0.15F, 0.22F,
     dry(0.32F, 0.26F, 0.12F);
 
 /// Adds a blade: a bent strip with a face on each side, so that it is closed.
-void add_blade(Mesh& mesh, Random& random) {
+void add_blade(Mesh& mesh, Random& random, const GrassSeason& season) {
     const double angle = 2.0 * pi * random.uniform(), out = random.uniform(),
                  size = random.uniform(), hue = random.uniform(), bend = random.uniform();
     const SineCosine to = sine_cosine(angle);
@@ -35,8 +35,11 @@ void add_blade(Mesh& mesh, Random& random) {
     const glm::dvec3 middle = root + length * ((0.12 + 0.2 * out) * outwards + 0.55 * up);
     const glm::dvec3 tip =
         middle + length * ((0.15 + 0.45 * bend) * outwards + 0.45 * (1.0 - bend) * up);
+    const double green = 1.0 - season.dry;
     const glm::vec3 tint =
-        hue > 0.88 ? dry : glm::mix(green_dark, green_pale, static_cast<float>(hue));
+        hue > green ? dry
+                    : static_cast<float>(season.fresh) *
+                          glm::mix(green_dark, green_pale, static_cast<float>(hue / green));
     for (const double face : {1.0, -1.0}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         const glm::dvec3 normal = glm::normalize(face * (0.8 * outwards - 0.6 * up));
@@ -59,10 +62,10 @@ void add_blade(Mesh& mesh, Random& random) {
 
 }  // namespace
 
-Mesh tuft_mesh(std::size_t shape) {
+Mesh tuft_mesh(std::size_t shape, const GrassSeason& season) {
     Random random(static_cast<std::uint32_t>(1 + shape), purposes::plot_pieces, 3);
     Mesh mesh;
-    for (int blade = 0; blade < blades_of_tuft; ++blade) add_blade(mesh, random);
+    for (int blade = 0; blade < blades_of_tuft; ++blade) add_blade(mesh, random, season);
     return mesh;
 }
 

@@ -9,6 +9,7 @@
 #include "core/grow/world/plot_places.h"
 #include "core/mesh/mesh.h"
 #include "core/world/cover.h"
+#include "core/world/grass_season.h"
 
 namespace sporeprint {
 
@@ -17,8 +18,9 @@ inline constexpr std::size_t tuft_shapes = 4;
 
 /// Returns a tuft of six blades with tints, about 13 cm high, rooted at the origin.
 ///
-/// shape  0 to tuft_shapes - 1
-[[nodiscard]] Mesh tuft_mesh(std::size_t shape);
+/// shape   0 to tuft_shapes - 1
+/// season  how many of its blades are withered, and how bright the others are
+[[nodiscard]] Mesh tuft_mesh(std::size_t shape, const GrassSeason& season);
 
 /// Returns the places of tufts of each shape, in the order of the cells of the world.
 [[nodiscard]] std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content,

@@ -34,7 +34,7 @@ std::size_t count(double share) {
 
 TEST(TileGrass, TuftsAreClosedShells) {
     for (std::size_t shape = 0; shape < tuft_shapes; ++shape) {
-        const Mesh tuft = tuft_mesh(shape);
+        const Mesh tuft = tuft_mesh(shape, grass_on(270));
         expect_valid(tuft);
         EXPECT_EQ(tuft.triangles(), 36U);
         EXPECT_EQ(tuft.tints.size(), tuft.positions.size());
