@@ -230,6 +230,31 @@ test("a parameter that is changed makes another world, and a refused one is name
     assert.equal(await page.locator("#world-name").textContent(), "Meadow");
 });
 
+test("a world stands on a terrain that is sent, and on grown hills again", async () => {
+    const { page, log } = await open("?world=meadow,seed=7,extent=256,terrain.relief=20&x=20&y=-5&year=80&day=270");
+    // Heights of another world are a file like any other.
+    const heights = await (await fetch(`${base}/v1/worlds/spruce,seed=3,extent=256/y80/maps/height.png?size=129`)).arrayBuffer();
+    await page.locator("#own-terrain summary").click();
+    await page.setInputFiles("#terrain-file", { name: "hills.png", mimeType: "image/png", buffer: Buffer.from(heights) });
+    await page.fill("#terrain-metres", "256");
+    await page.fill("#terrain-max", "35");
+    await settled(page, () =>
+        Promise.all([page.waitForResponse((response) => response.url().includes("terrain.id=t-") && response.url().includes("plot.glb")), page.click("#terrain-use")]),
+    );
+    await page.waitForFunction(() => document.querySelector("#terrain-about").textContent.startsWith("129 × 129 heights over 256 m"));
+    const address = new URL(page.url()).searchParams.get("world");
+    assert.match(address, /^meadow,seed=7,extent=256,terrain\.id=t-[0-9a-f]{32}$/, "what has no meaning beside it is gone");
+    assert.deepEqual(log.failed, []);
+    await settled(page, () => page.click("#terrain-none"));
+    assert.equal(new URL(page.url()).searchParams.get("world"), "meadow,seed=7,extent=256");
+
+    await page.fill("#terrain-max", "9000");
+    await page.fill("#terrain-metres", "16");
+    await page.click("#terrain-use");
+    await page.waitForFunction(() => document.querySelector("#problem").textContent.includes("steeper than 80 degrees"));
+    await page.locator("#own-terrain summary").click();
+});
+
 test("layers go and come without a request, and the saved plot has those that are on", async () => {
     const { page, log } = await open();
     const drawn = await page.evaluate(() => window.worlds.renderer.frames);

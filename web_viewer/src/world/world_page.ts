@@ -33,6 +33,7 @@ import {
     type WorldState,
     type WorldView,
 } from "./view_address";
+import { TerrainPanel } from "./terrain_panel";
 import { WhyPanel } from "./why_panel";
 import { WorldSettings } from "./world_settings";
 import { WorldStage } from "./world_stage";
@@ -44,6 +45,9 @@ const restMs = 450;
 /** The shortest time between two days that are played. */
 const playMs = 550;
 const speciesParameter = "fungi.species";
+const terrainParameter = "terrain.id";
+/** What has no meaning beside a terrain of one's own. */
+const grownTerrain = ["terrain.relief", "terrain.feature", "terrain.roughness", "terrain.erosion"];
 /** Fruit bodies that are listed by name at most. */
 const mostListed = 60;
 
@@ -77,6 +81,7 @@ export class WorldPage {
     private readonly map: MapView;
     private readonly graph: SeasonGraph;
     private readonly why: WhyPanel;
+    private readonly terrains: TerrainPanel;
     private readonly problems = new ProblemBox((item) => this.showBeside(item));
     private readonly day = byId<HTMLInputElement>("day");
     private readonly year = byId<HTMLInputElement>("year");
@@ -137,6 +142,7 @@ export class WorldPage {
         });
         this.graph = new SeasonGraph(nameOf, (day) => this.change({ day }, "day"));
         this.why = new WhyPanel(nameOf, failed);
+        this.terrains = new TerrainPanel({ chosen: (terrain) => this.standOn(terrain), failed });
         this.stage.onStep = (seconds) => {
             if (!this.stage.isWide) return false;
             const isMoving = this.controls.step(seconds);
@@ -154,13 +160,15 @@ export class WorldPage {
     async begin(): Promise<void> {
         ++this.pending;
         try {
-            const [{ worlds }, schema, { species }] = await Promise.all([
+            const [{ links }, { worlds }, schema, { species }] = await Promise.all([
+                getJson<{ links: Record<string, string> }>("v1"),
                 getJson<{ worlds: Listed[] }>("v1/worlds"),
                 getJson<Schema>("v1/worlds/schema"),
                 getJson<{ species: { id: string; common_name: string }[] }>("v1/species"),
             ]);
             for (const { id, common_name: name } of species) this.names.set(id, name || id);
             this.presets = worlds;
+            if (links["terrains"]) this.terrains.offer();
             byId("preset").replaceChildren(...worlds.map(({ id, name }) => make("option", { value: id }, name)));
             this.makeControls(schema, species.map(({ id }) => ({ id, name: this.names.get(id) ?? id })));
             this.readAddress();
@@ -248,6 +256,15 @@ export class WorldPage {
         this.useView(false);
         this.problems.showRejected(rejected);
         this.refresh("address", false);
+    }
+
+    /** Lets the world stand on a terrain, or on hills that are grown. */
+    private standOn(terrain: string | undefined): void {
+        const { settings } = this;
+        if (!settings) return;
+        settings.set(terrainParameter, terrain);
+        if (terrain !== undefined) for (const name of grownTerrain) settings.set(name, undefined);
+        this.refresh(terrainParameter);
     }
 
     private connect(): void {
@@ -463,6 +480,7 @@ export class WorldPage {
         const { state, settings, facts } = this;
         if (!settings) return;
         byId<HTMLSelectElement>("preset").value = settings.preset;
+        void this.terrains.show(String(settings.values.get(terrainParameter) ?? ""));
         const input = (id: string, value: number): void => {
             byId<HTMLInputElement>(id).value = String(value);
         };
