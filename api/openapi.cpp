@@ -42,7 +42,12 @@ void add_query_parameters(const Value& schema, const std::string& prefix, Value&
         if (const Value* type = leaf.find("type"); type && *type == Value("array"))
             continue;  // lists are possible in bodies only
         Value plain = leaf;
-        Value parameter = object({{"name", prefix + key}, {"in", "query"}, {"required", false}});
+        const Value* const required = schema.find("required");
+        const bool is_required =
+            required != nullptr &&
+            std::ranges::find(required->items(), Value(key)) != required->items().end();
+        Value parameter =
+            object({{"name", prefix + key}, {"in", "query"}, {"required", is_required}});
         if (const Value* doc = leaf.find("description")) parameter.set("description", *doc);
         plain.erase("description");
         parameter.set("schema", std::move(plain));
@@ -97,6 +102,9 @@ Value parameters_of(const RouteGroup& group, const Route& route, const DocumentI
     if (has("{photo}"))
         parameters.push(path_parameter("photo", "The secret name of a photograph.", text,
                                        "AAAAAAAAAAAAAAAAAAAAAA"));
+    if (has("{terrain}"))
+        parameters.push(path_parameter("terrain", "The id of a terrain.", text,
+                                       "t-0123456789abcdef0123456789abcdef"));
     if (has("{species}"))
         parameters.push(path_parameter("species",
                                        "A species of the library: ~owner.name, or ~owner.name@3.",

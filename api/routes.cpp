@@ -9,6 +9,7 @@
 #include "api/products/offspring.h"
 #include "api/products/photos.h"
 #include "api/products/sets.h"
+#include "api/products/terrains.h"
 #include "api/products/traces.h"
 #include "api/products/trees.h"
 #include "api/products/worlds/routes.h"
@@ -27,6 +28,7 @@ const RouteTable& route_table() {
         leaf_routes,
         tree_routes,
         world_routes,
+        terrain_routes,
         set_routes,
         photo_routes,
         trace_routes,

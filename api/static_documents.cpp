@@ -73,7 +73,8 @@ StaticDocuments::StaticDocuments(std::shared_ptr<const Atlas> atlas,
     : atlas_(std::move(atlas)), responses_(responses) {
     if (!options.assets.empty()) assets_ = read_assets(options.assets);
     const std::string& base = responses_.base_path();
-    const DocumentInputs inputs{*atlas_, routes, options.signed_urls, base, options.has_library};
+    const DocumentInputs inputs{
+        *atlas_, routes, options.signed_urls, base, options.has_library, !options.store.empty()};
     for (const Route* const route : routes.routes())
         if (route->document)
             documents_.emplace(
@@ -160,6 +161,7 @@ Value about(const DocumentInputs& inputs) {
     for (const RouteGroup& group : inputs.routes.groups())
         if (group.add_links) group.add_links(links, inputs.atlas);
     if (inputs.has_library) links.set("library", "/v1/library");
+    if (inputs.has_terrains) links.set("terrains", "/v1/terrains");
     Value root = Value::object();
     root.set("name", "sporeprint")
         .set("version", SPOREPRINT_VERSION)

@@ -210,6 +210,7 @@ api::ServiceOptions service_options_of(const Options& options, RepeatedWarning& 
     result.assets = page_folder(options);
     result.store = options.store.string();
     result.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
+    result.terrain_bytes = static_cast<std::uint64_t>(options.terrain_mb) << 20;
     result.signed_urls = !options.sign_keys.empty();
     result.allow_origin = options.allow_origin.string();
     result.base_path = options.base_path.string();

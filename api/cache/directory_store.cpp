@@ -148,7 +148,12 @@ void DirectoryStore::take_stock() {
         const fs::path& path = i->path();
         const std::string name = path.stem().string();
         struct stat status {};
-        if (::lstat(path.c_str(), &status) != 0 || S_ISDIR(status.st_mode)) continue;
+        if (::lstat(path.c_str(), &status) != 0) continue;
+        if (S_ISDIR(status.st_mode)) {
+            std::error_code unknown;
+            if (fs::is_directory(path / aside, unknown)) i.disable_recursion_pending();
+            continue;
+        }
         const bool named = S_ISREG(status.st_mode) && path.extension() == extension &&
                            is_name(name) && path_of(name) == path;
         const auto bytes = static_cast<std::uint64_t>(status.st_size);
@@ -229,12 +234,17 @@ std::optional<Slice> DirectoryStore::find(std::string_view key) {
     return body;
 }
 
-void DirectoryStore::insert(std::string_view key, const Body& body) {
+bool DirectoryStore::holds(std::string_view key) const {
+    std::error_code unknown;
+    return fs::is_regular_file(path_of(digest_of(key)), unknown);
+}
+
+bool DirectoryStore::insert(std::string_view key, const Body& body) {
     const std::string name = digest_of(key);
     const fs::path path = path_of(name);
     const std::string head = preamble(key) + digest_of(body);
     const std::uint64_t bytes = head.size() + size_of(body);
-    if (bytes > most_of_one()) return;
+    if (bytes > most_of_one()) return false;
     fs::path temporary;
     {
         const std::lock_guard lock(mutex_);
@@ -254,11 +264,12 @@ void DirectoryStore::insert(std::string_view key, const Body& body) {
         if (!error) {
             register_file(name, bytes);
             make_room();
-            return;
+            return true;
         }
         ++stats_.unwritten;
     }
     if (report_) report_({StoreEvent::Kind::unwritten, path, 1, error.message()});
+    return false;
 }
 
 DirectoryStats DirectoryStore::stats() const {

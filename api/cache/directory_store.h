@@ -48,7 +48,8 @@ class DirectoryStore {
     /// Creates the folder if it is missing, registers its files, and removes those over the bound
     /// or incompletely written. Files that the store has not written are ignored: other names,
     /// links, and files without its first line that are too large or have holes. Its own files that
-    /// are larger than the whole bound are removed.
+    /// are larger than the whole bound are removed. A folder in it that is that of another store is
+    /// not looked into.
     ///
     /// most_bytes  of all files together; the least recently used are evicted first, and none is
     ///             larger than an eighth of it
@@ -61,9 +62,14 @@ class DirectoryStore {
     /// is damaged. A damaged file is removed.
     [[nodiscard]] std::optional<Slice> find(std::string_view key);
 
+    /// Returns true if there is a file for `key`, which may be damaged. Does not count as a use.
+    [[nodiscard]] bool holds(std::string_view key) const;
+
     /// Writes a body under `key`. A body larger than an eighth of the bound is not written. One
     /// that cannot be written is counted, reported and dropped: it can be generated again.
-    void insert(std::string_view key, const Body& body);
+    ///
+    /// returns  whether it was written
+    bool insert(std::string_view key, const Body& body);
 
     [[nodiscard]] DirectoryStats stats() const;
 

@@ -71,8 +71,10 @@ Store::Store(const ServiceOptions& options)
       worlds(options.world_cache_bytes / 4,
              [](const SharedWorld& world) { return world->bytes(); }),
       blocks(options.world_cache_bytes / 2, [](const BlockPart& part) { return weight_of(part); }) {
-    if (!options.store.empty())
-        directory.emplace(options.store, options.store_bytes, options.store_event);
+    if (options.store.empty()) return;
+    // First the one within, which the other one then leaves alone.
+    terrains.emplace(options.store / "terrains", options.terrain_bytes, options.store_event);
+    directory.emplace(options.store, options.store_bytes, options.store_event);
 }
 
 void Store::measure() {
@@ -139,6 +141,13 @@ Caches computed_inline(Store& store) {
     return caches;
 }
 
+SharedTerrain stored_terrain(Store& store, std::string_view id) {
+    const std::optional<Slice> file = store.terrains ? store.terrains->find(id) : std::nullopt;
+    std::optional<TerrainMap> terrain;
+    if (file) terrain = terrain_in({file->data(), file->size});
+    return terrain ? std::make_shared<const TerrainMap>(std::move(*terrain)) : nullptr;
+}
+
 std::string cache_member(std::string_view cache, bool hit, bool stored) {
     return std::string(cache) + (hit ? "; hit" : stored ? "; fwd=miss; stored" : "; fwd=miss");
 }
@@ -180,6 +189,7 @@ JobContext::JobContext(Store& store, std::stop_token stop, const Observer& obser
         Requested requested;
         return ask<Atlas>(store_.offspring, key, make, execution_.stop, requested);
     };
+    execution_.caches.terrain = [this](std::string_view id) { return stored_terrain(store_, id); };
     execution_.caches.grounds = [this](const std::string& key,
                                        const std::function<SharedGround()>& make) {
         Requested requested;

@@ -26,6 +26,7 @@ using Images = std::shared_ptr<const ImageSet>;
 using Painting = std::shared_ptr<const RawImages>;
 using Morph = std::shared_ptr<const MorphSet>;  ///< the correspondence of a set of species
 using Bred = std::shared_ptr<const Atlas>;      ///< one bred species
+using SharedTerrain = std::shared_ptr<const TerrainMap>;
 using SharedGround = std::shared_ptr<const Ground>;
 using SharedWorld = std::shared_ptr<const World>;
 using SharedBlock = std::shared_ptr<const Block>;
@@ -57,6 +58,7 @@ struct Store {
     ComputingCache<SharedWorld> worlds;       ///< likewise
     ComputingCache<BlockPart> blocks;         ///< the rest; also the meshes of trees
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
+    std::optional<DirectoryStore> terrains;   ///< likewise: files of terrains by their ids
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
     /// A photograph is decoded by the holder of one: decoders take up to 200 MB each, so two run at once,
@@ -79,6 +81,9 @@ struct CacheMiss {
 /// Returns Caches for plan() that compute missing ones on the calling thread, which takes milliseconds, without waiting for other threads that compute the same. Images are not
 /// cached.
 [[nodiscard]] Caches computed_inline(Store& store);
+
+/// Returns a terrain that is stored, or null.
+[[nodiscard]] SharedTerrain stored_terrain(Store& store, std::string_view id);
 
 /// Returns the result of a lookup as a member of Cache-Status (RFC 9211): "sporeprint-images; hit",
 /// or for a miss "sporeprint-images; fwd=miss; stored".

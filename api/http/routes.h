@@ -36,7 +36,8 @@ struct DocumentInputs {
     const RouteTable& routes;
     bool signed_urls = false;
     std::string_view base_path;
-    bool has_library = false;  ///< of users' species
+    bool has_library = false;   ///< of users' species
+    bool has_terrains = false;  ///< that users send
 };
 
 /// Whether a route needs a token (`Authorization: Bearer`).

@@ -22,6 +22,7 @@ struct ServiceOptions {
     std::filesystem::path assets;  ///< folder of the built page; empty for none
     std::filesystem::path store;   ///< folder in which generated files are stored; empty for none
     std::uint64_t store_bytes = std::uint64_t{1} << 30;
+    std::uint64_t terrain_bytes = std::uint64_t{512} << 20;  ///< of terrains, in that folder too
     /// Called on any thread, also concurrently; may be empty.
     std::function<void(const StoreEvent&)> store_event;
     std::string allow_origin = "*";

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <stop_token>
+#include <string_view>
 
 #include "core/get_or_compute.h"
 #include "core/problems.h"
@@ -38,6 +40,7 @@ struct Block;
 struct BlockMycelia;
 struct BlockSeason;
 struct Ground;
+struct TerrainMap;
 struct TreeMeshes;
 struct World;
 
@@ -50,9 +53,12 @@ struct Caches {
     GetOrCompute<RawImages> paintings = uncached<RawImages>;  ///< inputs of image blending
     GetOrCompute<MorphSet> morphs = uncached<MorphSet>;  ///< correspondence of a set of species
     GetOrCompute<Atlas> offspring = uncached<Atlas>;     ///< atlases of one bred species each
-    GetOrCompute<Ground> grounds = uncached<Ground>;     ///< of worlds
-    GetOrCompute<World> worlds = uncached<World>;        ///< without their blocks
-    GetOrCompute<Block> blocks = uncached<Block>;        ///< of worlds
+    /// Returns a terrain by its id, or null if it is not stored.
+    std::function<std::shared_ptr<const TerrainMap>(std::string_view id)> terrain =
+        [](std::string_view) { return nullptr; };
+    GetOrCompute<Ground> grounds = uncached<Ground>;  ///< of worlds
+    GetOrCompute<World> worlds = uncached<World>;     ///< without their blocks
+    GetOrCompute<Block> blocks = uncached<Block>;     ///< of worlds
     GetOrCompute<BlockMycelia> mycelia = uncached<BlockMycelia>;
     GetOrCompute<BlockSeason> seasons = uncached<BlockSeason>;
     GetOrCompute<TreeMeshes> trees = uncached<TreeMeshes>;  ///< that stand on plots

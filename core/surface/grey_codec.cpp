@@ -86,7 +86,7 @@ DeclaredSize declared_grey_size(std::span<const std::uint8_t> file, int most,
     const int depth = file[24], colours = file[25];
     if (colours != PNG_COLOR_TYPE_GRAY || (depth != 8 && depth != 16))
         refuse(path, "the image is not grey of 8 or 16 bits without transparency");
-    return {static_cast<int>(width), static_cast<int>(height)};
+    return {static_cast<int>(width), static_cast<int>(height), depth};
 }
 
 GreyValues decoded_grey(std::span<const std::uint8_t> file, int most, const std::string& path) {

@@ -14,9 +14,10 @@ struct GreyValues {
     std::vector<std::uint16_t> values;  ///< 0..65535; those of 8 bits times 257
 };
 
-/// Width and height that a PNG file declares.
+/// What the header of a PNG file declares.
 struct DeclaredSize {
     int width = 0, height = 0;
+    int bits = 16;  ///< of a value, 8 or 16
 };
 
 /// Returns the size that the header of a PNG file of grey values declares.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/params/canonical.h"
+#include "core/problems.h"
 #include "core/world/drainage.h"
 #include "core/world/erosion.h"
 #include "core/world/weather.h"
@@ -38,6 +39,52 @@ std::int32_t greatest_step(const Grid& grid, const std::vector<std::int32_t>& he
                 step = std::max(step, std::abs(here - heights[grid.index(column, row - 1)]));
         }
     return step;
+}
+
+/// Width of the cells in which water is followed at least, metres: in finer ones it would gather in threads, and the
+/// wetness of a place would depend on the extent of its world.
+constexpr double water_cell = 2.5;
+
+/// Returns every so many values along rows and columns.
+template <class T>
+std::vector<T> thinned(const Grid& grid, const std::vector<T>& values, int step) {
+    std::vector<T> out;
+    for (int row = 0; row < grid.side; row += step)
+        for (int column = 0; column < grid.side; column += step)
+            out.push_back(values[grid.index(column, row)]);
+    return out;
+}
+
+/// Returns values of a thinned grid at all nodes, linear between those it has and rounded to the nearest.
+template <class T>
+std::vector<T> filled_up(const Grid& grid, const Grid& coarse, const std::vector<T>& values,
+                         int step) {
+    if (step == 1) return values;
+    std::vector<T> out(grid.nodes());
+    const int whole = step * step;
+    for (int row = 0; row < grid.side; ++row)
+        for (int column = 0; column < grid.side; ++column) {
+            const int i = std::min(column / step, coarse.side - 2),
+                      j = std::min(row / step, coarse.side - 2), x = column - i * step,
+                      y = row - j * step;
+            const T* const south = &values[coarse.index(i, j)];
+            const T* const north = south + coarse.side;
+            const int sum = (step - y) * ((step - x) * south[0] + x * south[1]) +
+                            y * ((step - x) * north[0] + x * north[1]);
+            out[grid.index(column, row)] = static_cast<T>((sum + whole / 2) / whole);
+        }
+    return out;
+}
+
+/// Lets water run over the ground: sets its wetness and its streams.
+void follow_water(Ground& ground) {
+    const Grid& grid = ground.grid;
+    const int step = std::max(1, static_cast<int>(std::lround(water_cell / grid.cell)));
+    const Grid coarse{(grid.side - 1) / step + 1, step * grid.cell, grid.origin};
+    const FloodedGround flood = flooded(coarse, thinned(grid, ground.heights, step));
+    const std::vector<double> areas = catchments(coarse, flood);
+    ground.wetness = filled_up(grid, coarse, wetness_index(coarse, flood, areas), step);
+    ground.streams = filled_up(grid, coarse, streams(areas), step);
 }
 
 /// Sets what is known of the nodes within the world.
@@ -77,20 +124,24 @@ std::size_t Ground::bytes() const {
            wetness.size() * sizeof(wetness[0]) + streams.size() * sizeof(streams[0]);
 }
 
-Ground ground_of(const WorldParams& params) {
+Ground ground_of(const WorldParams& params, const TerrainMap* terrain) {
+    if (!params.terrain.id.empty() && terrain == nullptr)
+        throw InvalidInput("terrain.id", "the terrain " + params.terrain.id.string() +
+                                             " is not stored; upload it again");
     Ground out;
     out.grid = world_grid(params.extent);
-    out.heights = eroded(out.grid, heights_of(params.terrain, params.seed, params.extent),
-                         params.terrain.erosion);
-    const FloodedGround flood = flooded(out.grid, out.heights);
-    const std::vector<double> areas = catchments(out.grid, flood);
-    out.wetness = wetness_index(out.grid, flood, areas);
-    out.streams = streams(areas);
+    out.heights = terrain != nullptr
+                      ? heights_of(*terrain, params.extent)
+                      : eroded(out.grid, heights_of(params.terrain, params.seed, params.extent),
+                               params.terrain.erosion);
+    follow_water(out);
     measure(out, extent_of(params));
     return out;
 }
 
 std::string ground_key(const WorldParams& params) {
+    if (!params.terrain.id.empty())
+        return "ground " + params.terrain.id.string() + ' ' + std::to_string(params.extent.value);
     std::string key =
         "ground " + std::to_string(params.seed) + ' ' + std::to_string(params.extent.value) + ' ';
     TerrainParams terrain = params.terrain;

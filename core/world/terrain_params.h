@@ -1,9 +1,20 @@
 // The parameters of the shape of a world's ground.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "core/params/describe.h"
+#include "core/params/messages.h"
 
 namespace sporeprint {
+
+/// Returns true if a text has the form of an id of a terrain: "t-" and 32 hexadecimal digits.
+[[nodiscard]] constexpr bool is_terrain_id(std::string_view text) {
+    return text.size() == 34 && text.starts_with("t-") &&
+           text.find_first_not_of("0123456789abcdef", 2) == std::string_view::npos;
+}
 
 /// Heights of the ground of a world.
 struct TerrainParams {
@@ -12,6 +23,7 @@ struct TerrainParams {
     double roughness = 0.47;
     double erosion = 0.5;
     double micro = 0.06;
+    Text<34> id = {};
 
     static constexpr void fields(auto visit) {
         using T = TerrainParams;
@@ -47,6 +59,18 @@ struct TerrainParams {
                               .doc = "Height of the smallest bumps, of 4 m and less, which plots "
                                      "show and maps do not.",
                               .step = 0.01});
+        visit(&T::id, Info{.name = "id",
+                           .most = 34,
+                           .doc = "A terrain that was sent to /v1/terrains, in place of hills that "
+                                  "are grown; of the other parameters of the terrain only micro "
+                                  "has a meaning then."});
+    }
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (!id.empty() && !is_terrain_id(id.view()))
+            report(problems, path + "/id",
+                   in_quotes(id.view()) +
+                       " is no id of a terrain, which is t- and 32 "
+                       "hexadecimal digits");
     }
     bool operator==(const TerrainParams&) const = default;
 };

@@ -142,6 +142,8 @@ struct WorldPreset {
         if (const std::string message = invalid_id_message(id); !message.empty())
             report(problems, path + "/id", message);
         if (name.empty()) report(problems, path + "/name", "is missing");
+        if (!terrain.id.empty())
+            report(problems, path + "/terrain/id", "is of an upload, which a preset cannot have");
     }
     bool operator==(const WorldPreset&) const = default;
 };

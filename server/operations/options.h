@@ -44,6 +44,7 @@ struct Options {
     Text<1023> assets;
     Text<1023> store;
     int store_mb = 1024;
+    int terrain_mb = 512;
     Text<1023> library;
     Text<1023> sign_keys;
     Text<1023> warm;
@@ -113,6 +114,12 @@ struct Options {
                                  .min = 1,
                                  .max = 1048576,
                                  .doc = "Room for the files of that folder."});
+        visit(&O::terrain_mb, Info{.name = "terrain_mb",
+                                   .unit = "MiB",
+                                   .min = 128,
+                                   .max = 1048576,
+                                   .doc = "Room for terrains that clients send, in that folder "
+                                          "too; those that were used least lately make room."});
         visit(
             &O::library,
             Info{.name = "library",

@@ -132,7 +132,7 @@ Value describe_weather(const WorldSpec& spec, const std::string& text, int numbe
 
 Plan plan_description(RouteCall& call) {
     Context& context = call.context;
-    const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
+    const WorldRequest requested = read_world(call.captured[0], context, call.errors);
     refuse_query_of_world(call.target, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     Resource resource = world_resource(context, requested, ".json", {});
@@ -147,7 +147,7 @@ Plan plan_description(RouteCall& call) {
 
 Plan plan_weather(RouteCall& call) {
     Context& context = call.context;
-    const WorldRequest requested = read_world(call.captured[0], *context.atlas, call.errors);
+    const WorldRequest requested = read_world(call.captured[0], context, call.errors);
     YearParams params;
     std::vector<Problem> problems;
     read_query(query_of_world(call.target, call.errors), params, problems);

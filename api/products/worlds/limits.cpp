@@ -55,7 +55,7 @@ struct LimitRequest {
 
 LimitRequest read_limits(const RouteCall& call, ValidationErrors& errors) {
     LimitRequest request;
-    request.world = read_world(call.captured[0], *call.context.atlas, errors);
+    request.world = read_world(call.captured[0], call.context, errors);
     request.time = read_world_day(call.captured[1],
                                   "what limits fungi changes from day to day; add one", errors);
     std::vector<Problem> problems;

@@ -35,10 +35,10 @@ std::optional<std::string> take_text(Value& body, const char* name, std::string_
 std::string some_world(const Atlas& atlas) { return atlas.worlds().front().id.string(); }
 
 /// Reads the text of a world in a body, whose errors are those of one member.
-WorldRequest read_world_member(std::string_view text, const Atlas& atlas,
+WorldRequest read_world_member(std::string_view text, const Context& context,
                                ValidationErrors& errors) {
     ValidationErrors of_text;
-    WorldRequest world = read_world(text, atlas, of_text);
+    WorldRequest world = read_world(text, context, of_text);
     for (const Problem& problem : of_text.problems())
         errors.add(
             of_text.status(), "/world",
@@ -58,7 +58,7 @@ PartRequest read_body_of_part(const RouteCall& call, ValidationErrors& errors) {
         return part;
     }
     const std::optional<std::string> text = take_text(*part.body, "world", world, errors);
-    part.world = read_world_member(text.value_or(world), atlas, errors);
+    part.world = read_world_member(text.value_or(world), call.context, errors);
     part.time = take_text(*part.body, "time", some_time, errors).value_or(some_time);
     std::vector<Problem> problems;
     if (std::optional<std::string> version = take_version(*part.body, problems))
@@ -73,7 +73,7 @@ PartRequest read_body_of_part(const RouteCall& call, ValidationErrors& errors) {
 PartRequest read_part(const RouteCall& call, ValidationErrors& errors) {
     if (is_posted(call)) return read_body_of_part(call, errors);
     PartRequest part;
-    part.world = read_world(call.captured[0], *call.context.atlas, errors);
+    part.world = read_world(call.captured[0], call.context, errors);
     part.time = call.captured[1];
     part.query = query_of_world(call.target, errors);
     return part;

@@ -17,6 +17,7 @@ namespace {
 
 /// Returns the cost of computing the ground of a world.
 Cost cost_of_ground(const WorldParams& params) {
+    if (!params.terrain.id.empty()) return {.base = 80'000};
     return {.base = 40'000 + static_cast<std::uint64_t>(170'000.0 * params.terrain.erosion)};
 }
 
@@ -112,8 +113,11 @@ WorldBox read_box(std::string_view text, const WorldBox& extent, const WorldBox&
 
 /// Returns the ground of a world, from its cache or computed.
 SharedGround ground_of_world(const WorldParams& params, const Caches& caches) {
-    return caches.grounds(ground_key(params),
-                          [&] { return std::make_shared<const Ground>(ground_of(params)); });
+    return caches.grounds(ground_key(params), [&] {
+        const SharedTerrain terrain =
+            params.terrain.id.empty() ? nullptr : caches.terrain(params.terrain.id.view());
+        return std::make_shared<const Ground>(ground_of(params, terrain.get()));
+    });
 }
 
 /// Returns the job that computes the ground of a world, if it is not cached.

@@ -60,7 +60,7 @@ struct SeasonRequest {
 
 SeasonRequest read_season(const RouteCall& call, ValidationErrors& errors) {
     SeasonRequest request;
-    request.world = read_world(call.captured[0], *call.context.atlas, errors);
+    request.world = read_world(call.captured[0], call.context, errors);
     SeasonParams params;
     std::vector<Problem> problems;
     read_query(query_of_world(call.target, errors), params, problems);

@@ -148,7 +148,7 @@ struct LayerRequest {
 /// Reads {world}, {profile}, {layertime} and {layer}; no route of tiles has a query.
 LayerRequest read_layer(const RouteCall& call, ValidationErrors& errors) {
     LayerRequest request;
-    request.world = read_world(call.captured[0], *call.context.atlas, errors);
+    request.world = read_world(call.captured[0], call.context, errors);
     request.tile.profile = read_name(call.captured[1], "profile", all_profiles, errors);
     request.tile.layer = read_name(call.captured[3], "layer", all_layers, errors);
     request.time = read_layer_time(call.captured[2], request.tile.layer, errors);
@@ -342,7 +342,7 @@ Plan plan_tileset_of(RouteCall& call, std::vector<LayerRequest> layers, const st
 }  // namespace
 
 Plan plan_tileset(RouteCall& call) {
-    const WorldRequest world = read_world(call.captured[0], *call.context.atlas, call.errors);
+    const WorldRequest world = read_world(call.captured[0], call.context, call.errors);
     const TileProfile profile = read_name(call.captured[1], "profile", all_profiles, call.errors);
     const WorldTimeRead time =
         read_world_day(call.captured[2], "fungi are those of a day; add it", call.errors);

@@ -63,6 +63,28 @@ void check_kinds(const StandParams& stand, const Atlas& atlas, std::vector<Probl
     if (!stand.lone.empty()) check(stand.lone, "stand.lone");
 }
 
+/// Reports a terrain that is not stored, and parameters that have no meaning beside one.
+void check_terrain(const WorldSpec& spec, const Context& context, ValidationErrors& errors) {
+    const TerrainParams& terrain = spec.params.terrain;
+    if (terrain.id.empty() || !is_terrain_id(terrain.id.view())) return;
+    if (!context.store.terrains)
+        errors.add(404, "terrain.id",
+                   "this service stores no terrains; its operator can give it a --store");
+    else if (!context.store.terrains->holds(terrain.id.view()))
+        errors.add(404, "terrain.id",
+                   "there is no terrain " + terrain.id.string() +
+                       ", or no longer; upload it to /v1/terrains again");
+    TerrainParams grown = context.atlas->find_world(spec.preset)->terrain;
+    grown.id = terrain.id;
+    grown.micro = terrain.micro;
+    TerrainParams::fields([&](auto member, const Info& info) {
+        if (terrain.*member != grown.*member)
+            errors.add(400, std::string("terrain.") + info.name,
+                       "has no meaning beside terrain.id, whose heights are as they were sent; "
+                       "leave it out");
+    });
+}
+
 /// Reports species that the atlas does not have.
 void check_species(const FungiParams& fungi, const Atlas& atlas, std::vector<Problem>& problems) {
     for (const std::string& id : species_in(fungi.species, "fungi.species", problems))
@@ -70,6 +92,12 @@ void check_species(const FungiParams& fungi, const Atlas& atlas, std::vector<Pro
 }
 
 }  // namespace
+
+WorldRequest read_world(std::string_view text, const Context& context, ValidationErrors& errors) {
+    WorldRequest request = read_world(text, *context.atlas, errors);
+    check_terrain(request.spec, context, errors);
+    return request;
+}
 
 WorldRequest read_world(std::string_view text, const Atlas& atlas, ValidationErrors& errors) {
     WorldRequest request;

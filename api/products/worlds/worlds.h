@@ -49,8 +49,14 @@ struct WorldRequest {
 };
 
 /// Reads the {world} of a URL: "beech,seed=7,climate.rain=600,v=35-1a2b3c4d". Errors name the parameters of the text,
-/// or "world" for its form and its preset: 400 for syntax and values, 404 for an unknown preset.
+/// or "world" for its form and its preset: 400 for syntax and values, 404 for an unknown preset. Whether its terrain is
+/// stored remains open.
 [[nodiscard]] WorldRequest read_world(std::string_view text, const Atlas& atlas,
+                                      ValidationErrors& errors);
+
+/// Reads the {world} of a request. Its terrain is looked up too: 404 if it is not stored, 400 for parameters that have no
+/// meaning beside one.
+[[nodiscard]] WorldRequest read_world(std::string_view text, const Context& context,
                                       ValidationErrors& errors);
 
 /// Returns the canonical text of a world: its preset, then parameters that differ from it in the order of the schema.

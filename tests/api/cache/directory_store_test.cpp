@@ -212,6 +212,32 @@ TEST(DirectoryStore, CountsNothingThatItCannotHaveWritten) {
     EXPECT_TRUE(fs::exists(fs::symlink_status(events[0].file)));
 }
 
+TEST(DirectoryStore, LeavesAStoreWithinItAlone) {
+    const Folder folder;
+    {
+        DirectoryStore within(folder.path() / "within", 1 << 20);
+        EXPECT_TRUE(within.insert("inner", {slice_of("of the inner one")}));
+    }
+    std::vector<StoreEvent> events;
+    DirectoryStore store(folder.path(), 1 << 20,
+                         [&](const StoreEvent& event) { events.push_back(event); });
+    EXPECT_EQ(store.stats().entries, 0u);
+    EXPECT_TRUE(events.empty());
+    DirectoryStore within(folder.path() / "within", 1 << 20);
+    EXPECT_EQ(found_in(within, "inner"), "of the inner one");
+}
+
+TEST(DirectoryStore, TellsWhatItHoldsAndWhatItCouldNotWrite) {
+    const Folder folder;
+    DirectoryStore store(folder.path(), 1 << 20);
+    EXPECT_FALSE(store.holds("one"));
+    EXPECT_TRUE(store.insert("one", {slice_of("a body")}));
+    EXPECT_TRUE(store.holds("one"));
+    EXPECT_FALSE(store.insert("large", {slice_of(std::string((1 << 20) / 8, 'x'))}));
+    EXPECT_FALSE(store.holds("large"));
+    EXPECT_EQ(store.stats().hits, 0u) << "asking is no use";
+}
+
 TEST(DirectoryStore, KeepsWhatItWroteUnderALargerBoundAsFarAsItHasRoom) {
     const Folder folder;
     {

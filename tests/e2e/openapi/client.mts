@@ -277,6 +277,20 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     const { data: spread } = await client.POST("/v1/worlds/maps/{map}.json", { ...spores, body: { ...edited, size: 65 } });
     if (spread?.width !== 65) throw new Error("the map of an edited world is not described");
 
+    const { data: heights } = await client.GET("/v1/worlds/{world}/{time}/maps/{map}.png", { params: { path: { world: "meadow,extent=256", time: "y80d270", map: "height" }, query: { size: 65 } }, ...binary });
+    const { data: sent } = await client.POST("/v1/terrains", {
+        params: { query: { metres: 320, max: 40 } },
+        body: heights as unknown as string,
+        bodySerializer: (file: unknown) => file as ArrayBuffer,
+        headers: { "Content-Type": "image/png" },
+    });
+    const terrain: string = sent?.terrain ?? "";
+    const ofTerrain = { params: { path: { terrain } } };
+    const { data: ground } = await client.GET("/v1/terrains/{terrain}.json", ofTerrain);
+    if (ground?.side !== 65 || ground.metres !== 320) throw new Error("a terrain is not described as it was sent");
+    await both(client.HEAD("/v1/terrains/{terrain}.png", ofTerrain), client.GET("/v1/terrains/{terrain}.png", { ...ofTerrain, ...binary }));
+    await client.GET("/v1/worlds/{world}.json", { params: { path: { world: `meadow,extent=256,terrain.id=${terrain}` } } });
+
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {
         body: picture as unknown as string,

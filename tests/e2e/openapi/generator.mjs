@@ -138,6 +138,7 @@ export class Generator {
         if (name === "x" || name === "y") return "0";
         if (name === "type") return dice.pick(lists.types);
         if (name === "photo") return dice.pick(lists.photos);
+        if (name === "terrain") return dice.pick(lists.terrains);
         if (name === "lod") return dice.pick(["0", "3"]);
         if (name === "species") return dice.pick(lists.library) + dice.pick(["", "@1", "@2"]);
         if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
@@ -163,7 +164,7 @@ export class Generator {
         const known = (operation.parameters ?? []).filter((one) => one.in === "query" && one.name !== "v");
         const small = known.filter((one) => ["lod", "texture_size", "count"].includes(one.name));
         for (const parameter of known) {
-            const chosen = small.includes(parameter) || dice.chance(Math.min(0.5, 3 / known.length));
+            const chosen = parameter.required || small.includes(parameter) || dice.chance(Math.min(0.5, 3 / known.length));
             if (!chosen) continue;
             const spoilt = dice.chance(0.06);
             if (spoilt) [right, wrong] = [false, true];
@@ -196,7 +197,7 @@ export class Generator {
                 body = JSON.stringify(value);
                 if (dice.chance(0.02)) [right, wrong, body] = [false, true, body.slice(0, -1)];
             } else {
-                const file = type.startsWith("image/") ? this.lists.picture : this.lists.file;
+                const file = path === "/v1/terrains" ? this.lists.heights : type.startsWith("image/") ? this.lists.picture : this.lists.file;
                 body = file;
                 if (dice.chance(0.5)) {
                     right = false;
@@ -219,6 +220,8 @@ export async function listsOf(url, document) {
     const bytesOf = async (path) => new Uint8Array(await (await fetch(url + path)).arrayBuffer());
     const picture = await bytesOf("/v1/mushrooms/boletus_edulis.png?width=256&height=256&view=front&background=grey&lod=2");
     const uploaded = async () => (await (await fetch(`${url}/v1/photos`, { method: "POST", headers: { "Content-Type": "image/png" }, body: picture })).json()).photo;
+    const heights = await bytesOf("/v1/worlds/meadow,extent=256/y80d270/maps/height.png?size=65");
+    const terrain = async (metres) => (await (await fetch(`${url}/v1/terrains?metres=${metres}&max=30`, { method: "POST", headers: { "Content-Type": "image/png" }, body: heights })).json()).terrain;
     const token = process.env.SPOREPRINT_TOKEN ?? "";
     const template = await (await fetch(`${url}/v1/species/boletus_edulis`)).json();
     const published = async (name) => {
@@ -237,6 +240,8 @@ export async function listsOf(url, document) {
     types: Object.values(document.components.responses).map((one) => one.content?.["application/problem+json"]?.example.type.split("/").pop()).filter(Boolean),
     file: await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128"),
     picture,
+    heights,
+    terrains: await Promise.all([320, 1280].map(terrain)),
     photos: await Promise.all(Array.from({ length: 12 }, uploaded)),
     token,
     library: await Promise.all(["one", "two", "three", "four"].map(published)),

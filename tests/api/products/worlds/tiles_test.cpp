@@ -63,7 +63,7 @@ TEST_F(WorldTilesTest, ATilesetLeadsToAllItsTiles) {
 }
 
 TEST_F(WorldTilesTest, ATileLeadsToTheGeometryAndTheImagesOfItsShapes) {
-    for (const char* path : {"/web/y80m7/trees/5/16/16.glb", "/web/y80m7/trees/2/2/2.glb",
+    for (const char* path : {"/web/y80m7/trees/5/16/17.glb", "/web/y80m7/trees/2/2/2.glb",
                              "/web/y80d270/fungi/3/4/4.glb", "/web/y80m7/floor/5/16/16.glb"}) {
         const Response tile = ask(world + path);
         ASSERT_EQ(tile.status, 200) << text_of(tile);
