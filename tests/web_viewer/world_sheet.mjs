@@ -19,6 +19,23 @@ const parasols = "meadow,seed=7,extent=256,fungi.abundance=6,fungi.species=macro
  * show the page itself, not its stage alone.
  */
 const recipes = {
+    worlds: {
+        columns: 3,
+        cell: [480, 320],
+        cells: [
+            plot("beech,seed=7,extent=256", "y81d285", "x=-54&y=95&view=kneeling&turn_deg=-40"),
+            plot("spruce,seed=126", "y127d260", "x=385&y=200&turn_deg=-57"),
+            plot("mixed,seed=316", "y134d274", "x=-408&y=338&size=14&view=kneeling&turn_deg=-113"),
+            plot("birch,seed=7,extent=256", "y80d285", "x=38&y=7&view=kneeling&turn_deg=160"),
+            plot("meadow,seed=7,extent=256", "y80d285", "x=7&y=-15&view=kneeling&turn_deg=-100"),
+            plot("clearing,seed=7,extent=256", "y80d285", "x=-25&y=-83&view=kneeling&turn_deg=-100"),
+        ].map((address) => [address]),
+    },
+    seasons: {
+        columns: 2,
+        cell: [546, 364],
+        cells: [20, 120, 200, 285].map((day) => [plot("birch,seed=7,extent=256", `y80d${day}`, "x=36&y=6&size=12")]),
+    },
     ring: {
         columns: 3,
         cell: [480, 303],
@@ -32,7 +49,7 @@ const recipes = {
     flight: {
         columns: 2,
         cell: [640, 400],
-        cells: [[20, -5, "20,-6,1.7"], [0, -60, "10,-14,14"], [0, -80, "8,-18,42"], [-20, -125, "12,-24,110"]].map(([x, y, look]) => [
+        cells: [[-20, -125, "12,-24,110"], [0, -80, "8,-18,42"], [0, -60, "10,-14,14"], [20, -5, "20,-6,1.7"]].map(([x, y, look]) => [
             flight("beech,seed=7,extent=256", x, y, "year=80&day=200", look),
         ]),
     },
