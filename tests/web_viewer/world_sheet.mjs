@@ -1,6 +1,6 @@
 // Makes a picture of worlds for web_viewer/pictures: pictures of plots, or of the page /world, side by side.
 //   node tests/web_viewer/world_sheet.mjs URL NAME FILE
-// NAME is one of the recipes below.
+// NAME is one of the sheets below.
 import { launchBrowser, logEvents, packages, patience } from "./support.mjs";
 
 const sharp = packages("sharp");
@@ -18,7 +18,7 @@ const parasols = "meadow,seed=7,extent=256,fungi.abundance=6,fungi.species=macro
  * window of the page; `columns`; `part` of the pictures, as left, top, width and height, if not all of them; `whole` to
  * show the page itself, not its stage alone.
  */
-const recipes = {
+const sheets = {
     worlds: {
         columns: 3,
         cell: [480, 320],
@@ -117,9 +117,9 @@ class Window {
 }
 
 const [url, name, file] = process.argv.slice(2);
-const recipe = recipes[name];
-if (!file || !recipe) throw new Error(`usage: world_sheet.mjs URL NAME FILE, with one NAME of ${Object.keys(recipes).join(", ")}`);
-const { cells, cell: [width, height], columns, part, whole = false } = recipe;
+const wanted = sheets[name];
+if (!file || !wanted) throw new Error(`usage: world_sheet.mjs URL NAME FILE, with one NAME of ${Object.keys(sheets).join(", ")}`);
+const { cells, cell: [width, height], columns, part, whole = false } = wanted;
 const window = new Window([width, height], whole);
 const below = cells.some(([, text]) => text) ? caption : 0;
 const layers = [];
