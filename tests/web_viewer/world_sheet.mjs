@@ -49,9 +49,10 @@ const sheets = {
     flight: {
         columns: 2,
         cell: [640, 400],
-        cells: [[-20, -125, "12,-24,110"], [0, -80, "8,-18,42"], [0, -60, "10,-14,14"], [20, -5, "20,-6,1.7"]].map(([x, y, look]) => [
-            flight("beech,seed=7,extent=256", x, y, "year=80&day=200", look),
-        ]),
+        cells: [
+            [flight("beech,seed=7,extent=256", 20, -5, "year=80&day=285", "20,-8,3")],
+            [flight("beech,seed=7,extent=256", 0, -60, "year=80&day=285", "10,-18,30")],
+        ],
     },
     world_page: {
         columns: 1,
