@@ -96,6 +96,19 @@ const tree_images = [
 const variants = [...images, `${small}&variants=weather`];
 const lods = ["", "lod=1", "lod=2", "lod=3", "triangles=9000"];
 
+/** Returns tiles of a world that show something: of each profile and layer from the coarsest to the finest. */
+function tiles(world) {
+    const places = {
+        "y80m10/ground": ["0/0/0", "3/4/3", "5/17/15", "5/0/31"],
+        "y80m10/trees": ["1/1/0", "3/4/3", "4/8/7", "5/0/31"],
+        "y80m6/floor": ["3/4/3", "4/8/7", "5/17/15", "5/0/31"],
+        "y80d270/fungi": ["3/4/3", "3/5/2", "4/8/7", "5/17/15"],
+    };
+    return ["core", "web"].flatMap((profile) =>
+        Object.entries(places).flatMap(([layer, all]) => all.map((place) => `${world}/${profile}/${layer}/${place}`)),
+    );
+}
+
 /** Returns for each product its route and its factors; the values are parts of a query. Some
  *  requests are listed alone, because each of their factors has one value. */
 async function requestFactors(server) {
@@ -205,6 +218,22 @@ async function requestFactors(server) {
                 ["habit=rooted&textures=none&roots=shown"],
             ],
         },
+        {
+            route: "worlds",
+            factors: [
+                [
+                    "beech,seed=7,extent=256/y80d270/plot",
+                    "mixed,extent=256/y200d20/plot",
+                    "meadow,extent=256/y10d150/plot",
+                ],
+                ["size=2", "size=4&x=20&y=-5", "size=4&layers=ground%2Bfungi"],
+                ["lod=1", "lod=2"],
+                ["texture_size=256", "texture_size=256&image_format=webp", "textures=none"],
+                ["", "instancing=gpu"],
+                ["", "compress=quantize", "compress=meshopt"],
+            ],
+        },
+        { route: "worlds", factors: [tiles("beech,seed=7,extent=256")] },
     ];
 }
 

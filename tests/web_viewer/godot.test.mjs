@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import { serveProject } from "./godot_project.mjs";
-import { launchBrowser, logEvents, screenshotFolder, serverUrl } from "./support.mjs";
+import { boxInSubtree, numberInSubtree } from "./subtree.mjs";
+import { launchBrowser, logEvents, patience, screenshotFolder, serverUrl } from "./support.mjs";
 
 const server = serverUrl({ everySpecies: true });
 const found = {};
@@ -24,7 +25,7 @@ before(async () => {
             if (/SCRIPT ERROR|Parse Error/.test(message.text()))
                 reject(new Error(log.console.join("\n")));
         });
-        setTimeout(() => reject(new Error(log.console.join("\n"))), 100_000).unref();
+        setTimeout(() => reject(new Error(log.console.join("\n"))), patience).unref();
     });
     await page.goto(project.origin);
     await ended;
@@ -118,6 +119,43 @@ test("a colony is one draw call for each mesh", async () => {
         json.made + 1,
         "and the stems",
     );
+});
+
+/** Returns the JSON of a GLB of the server. */
+async function jsonOfFile(route) {
+    const bytes = Buffer.from(await (await fetch(`${server}/v1/${route}`)).arrayBuffer());
+    return JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString());
+}
+
+const world = "worlds/beech,seed=7,extent=256";
+
+test("a plot of a world opens with all its meshes and images", async () => {
+    const json = await jsonOfFile(`${world}/y80d270/plot.glb?x=20&y=-5&size=4&lod=2&texture_size=256&litter=5`);
+    const { plot } = found;
+    assert.deepEqual(plot.statuses, [200]);
+    assert.equal(plot.meshes, json.nodes.filter(({ mesh }) => mesh !== undefined).length);
+    assert.equal(plot.triangles, json.asset.extras.triangles);
+    assert.ok(plot.pictures);
+    for (const axis of [0, 2]) assert.ok(plot.min[axis] < -1.999 && plot.max[axis] > 1.999, `${plot.min} ${plot.max}`);
+});
+
+test("tiles of worlds open inside their boxes", async () => {
+    for (const layer of ["ground", "trees", "fungi"]) {
+        const folder = `${world}/core/${layer === "fungi" ? "y80d270" : "y80m10"}/${layer}`;
+        const json = await jsonOfFile(`${folder}/5/17/15.glb`);
+        const tile = found[layer];
+        assert.deepEqual(tile.statuses, [200], layer);
+        assert.equal(tile.meshes, json.nodes.filter(({ mesh }) => mesh !== undefined).length, layer);
+        assert.ok(tile.meshes > 0, layer);
+        assert.equal(tile.triangles, json.asset.extras.triangles, layer);
+        assert.ok(tile.pictures, layer);
+        const subtree = new Uint8Array(await (await fetch(`${server}/v1/${folder}/3/4/3.subtree`)).arrayBuffer());
+        const box = boxInSubtree(subtree, numberInSubtree(2, 17 & 3, 15 & 3));
+        // East, up and south in the file are east, north and up in the box.
+        const inside = [[tile.min[0], tile.max[0]], [-tile.max[2], -tile.min[2]], [tile.min[1], tile.max[1]]];
+        for (let axis = 0; axis < 3; ++axis)
+            assert.ok(inside[axis][0] >= box.min[axis] - 1e-3 && inside[axis][1] <= box.max[axis] + 1e-3, `${layer}: ${tile.min} ${tile.max} in ${box.min} ${box.max}`);
+    }
 });
 
 test("a refusal is reported in the words of the server", () => {

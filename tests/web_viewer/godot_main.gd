@@ -36,6 +36,26 @@ func shown_model(model: SporeprintModel) -> Dictionary:
 						else material.get_shader_parameter("base_color").get_width()})
 	return found
 
+## Opens a file as a game would that has no add-on, and returns what is in it.
+func shown_file(path: String) -> Dictionary:
+	var node: Node3D = server.parse(await server.fetch(path), path)
+	add_child(node)
+	var found := {"meshes": 0, "triangles": 0, "pictures": true}
+	var box := AABB()
+	for part in node.find_children("*", "MeshInstance3D", true, false):
+		var own: AABB = part.global_transform * part.get_aabb()
+		box = own if found.meshes == 0 else box.merge(own)
+		found.meshes += 1
+		found.triangles += triangles(part.mesh)
+		for surface in part.mesh.get_surface_count():
+			var material: BaseMaterial3D = part.mesh.surface_get_material(surface)
+			if material.albedo_texture == null or material.albedo_texture.get_width() < 1:
+				found.pictures = false
+	found["min"] = [box.position.x, box.position.y, box.position.z]
+	found["max"] = [box.end.x, box.end.y, box.end.z]
+	node.queue_free()
+	return found
+
 ## Returns the size and the mean colour of what a mesh covers, seen from between two frames.
 func picture_of(mesh: Mesh, middle: Vector3) -> Dictionary:
 	var view := SubViewport.new()
@@ -99,6 +119,12 @@ func _ready() -> void:
 	var parts: Array = await colony.loaded
 	report("colony", {"parts": parts.map(func(part): return {"name": part.name,
 			"count": part.multimesh.instance_count, "triangles": triangles(part.multimesh.mesh)})})
+
+	var world := "/v1/worlds/beech,seed=7,extent=256/"
+	report("plot", await shown_file(world + "y80d270/plot.glb?x=20&y=-5&size=4&lod=2&texture_size=256&litter=5"))
+	for tile in ["ground", "trees", "fungi"]:
+		var time := "y80d270" if tile == "fungi" else "y80m10"
+		report(tile, await shown_file(world + "core/" + time + "/" + tile + "/5/17/15.glb"))
 
 	var distant := SporeprintModel.new()
 	distant.parameters = {"texture_size": 1024, "seed": 3, "lod": 2, "impostor": "true"}
