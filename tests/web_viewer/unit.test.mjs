@@ -53,10 +53,10 @@ const { outputFiles } = packages("esbuild").buildSync({
         ]
             .map((name) => `export * from "./${name}";`)
             .concat(
-                ["fly_motion", "height_field", "map_colours", "plot_view", "richest_place", "season_curves", "view_address", "why_panel", "world_settings"]
+                ["fly_motion", "height_field", "map_colours", "plot_view", "richest_place", "season_curves", "shared_meshes", "view_address", "why_panel", "world_settings"]
                     .map((name) => `export * as ${name} from "./world/${name}";`),
             )
-            .concat('export { Box3, Group, PerspectiveCamera, Vector3 } from "three";')
+            .concat('export { Box3, BoxGeometry, DataTexture, Group, InstancedMesh, Mesh, MeshStandardMaterial, PerspectiveCamera, Vector3 } from "three";')
             .join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
@@ -1937,4 +1937,23 @@ test("reasons begin with the species that fruit best", () => {
     ];
     assert.deepEqual(byShare(species, (id) => id).map(({ id }) => id), ["b", "d", "a", "c"]);
     assert.deepEqual(species.map(verdict), ["no", "no", "yes", "hardly"]);
+});
+
+test("a tile takes memory for what it alone has: each mesh and image once, and what it shares with other tiles not", async () => {
+    const { BoxGeometry, DataTexture, InstancedMesh, Mesh, MeshStandardMaterial, Group } = page;
+    const shared = new page.shared_meshes.SharedMeshes();
+    const [own, tree] = [new BoxGeometry(), new BoxGeometry()];
+    const material = new MeshStandardMaterial({ map: new DataTexture(new Uint8Array(64), 4, 4) });
+    const bytes = [...Object.values(own.attributes), own.index].reduce((sum, { array }) => sum + array.byteLength, 0);
+    const tile = new Group();
+    tile.add(new Mesh(own, material), new Mesh(own, material));
+    assert.equal(shared.ownBytes(tile), bytes + (64 * 4) / 3);
+    // The loader asks the plugin for a mesh whose data are at an address of their own.
+    const json = { accessors: [{ bufferView: 0 }], bufferViews: [{ buffer: 0 }], buffers: [{ uri: "tree.bin" }], meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }] };
+    globalThis.location = { href: "http://127.0.0.1/" };
+    const parser = { json, options: { path: "" }, loadMesh: async () => new Mesh(tree, new MeshStandardMaterial()) };
+    const { geometry } = await shared.plugin(parser).loadMesh(0);
+    delete globalThis.location;
+    tile.add(new InstancedMesh(geometry, material, 5));
+    assert.equal(shared.ownBytes(tile), bytes + (64 * 4) / 3 + 5 * 64);
 });

@@ -14,6 +14,9 @@ import type { WorldStage } from "./world_stage";
 
 /** Error on the screen at which a finer tile is wanted, pixels. */
 const errorTarget = 16;
+/** Memory of the graphics card for tiles, bytes: what is kept that is not in view, and what no view may exceed. At 1920
+ *  by 1080 pixels a view takes 0.5e9, and twice as much while a month follows another. */
+const memory = { kept: 0.6e9, most: 1.2e9 };
 /** A layer counts as loaded after this many frames in which nothing was on its way. */
 const quietFrames = 4;
 
@@ -40,9 +43,10 @@ export function tilesetAddress(world: string, state: WorldState, layer: Layer): 
     return `v1/worlds/${world}/web/${time}/${layer}/tileset.json`;
 }
 
-/** Numbers of a renderer of tiles that its types do not name. */
-interface TileStats {
+/** Members of a renderer of tiles that its types do not name. */
+interface TileInternals {
     stats: { queued: number; downloading: number; parsing: number; failed: number };
+    calculateBytesUsed: (tile: object, scene: Object3D | null) => number;
 }
 
 /** Fetches a tileset or a tile. A busy server is requested again after the time that it names. */
@@ -117,7 +121,7 @@ export class FlyView {
                 tiles.group.matrixWorldInverse.copy(root.matrixWorld).invert();
             }
             tiles.update();
-            const { queued, downloading, parsing } = (tiles as unknown as TileStats).stats;
+            const { queued, downloading, parsing } = (tiles as unknown as TileInternals).stats;
             const isQuiet = (tiles.root !== null || set.failed) && queued + downloading + parsing === 0;
             set.quiet = isQuiet ? set.quiet + 1 : 0;
             isBusy ||= set.quiet < quietFrames;
@@ -142,6 +146,12 @@ export class FlyView {
 
     shownAddress(layer: Layer): string {
         return this.shown.get(layer)?.address ?? "";
+    }
+
+    /** Memory that the tiles take, bytes, and whether there is none left for more. */
+    get memory(): { bytes: number; isFull: boolean } {
+        const cache = this.shown.get("ground")?.tiles.lruCache as { cachedBytes: number; isFull: () => boolean } | undefined;
+        return { bytes: cache?.cachedBytes ?? 0, isFull: cache?.isFull() ?? false };
     }
 
     /** Tiles of a layer in the picture. */
@@ -171,6 +181,11 @@ export class FlyView {
         const tiles = new TilesRenderer(new URL(address, location.href).href);
         const set: TileSet = { address, tiles, quiet: 0, failed: false };
         tiles.errorTarget = errorTarget;
+        // All renderers of tiles have the same cache.
+        tiles.lruCache.minBytesSize = memory.kept;
+        tiles.lruCache.maxBytesSize = memory.most;
+        // The renderer would count a tree once for each tile that shows it, and stop loading: its cache seems full.
+        (tiles as unknown as TileInternals).calculateBytesUsed = (_, scene) => (scene ? this.meshes.ownBytes(scene) : 0);
         tiles.registerPlugin(new ImplicitTilingPlugin());
         const loader = new GLTFLoader(tiles.manager).setMeshoptDecoder(MeshoptDecoder);
         loader.register(this.meshes.plugin).register(translucency(new Set()));

@@ -1,6 +1,17 @@
 // Meshes that many tiles have in common: a plugin of the loader, by which each is read once and has one geometry and
 // one set of images on the graphics card, however many tiles show it.
-import { LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, TextureLoader, type Group, type Mesh, type Texture } from "three";
+import {
+    InstancedMesh,
+    LinearFilter,
+    LinearMipmapLinearFilter,
+    Mesh,
+    RepeatWrapping,
+    Texture,
+    TextureLoader,
+    type BufferGeometry,
+    type Group,
+    type Object3D,
+} from "three";
 import type { GLTFLoaderPlugin, GLTFParser } from "three/addons/loaders/GLTFLoader.js";
 
 interface FileJson {
@@ -17,6 +28,7 @@ interface FileJson {
 export class SharedMeshes {
     private readonly meshes = new Map<string, Promise<Mesh | Group>>();
     private readonly images = new Map<string, Promise<Texture>>();
+    private readonly shared = new WeakSet<BufferGeometry | Texture>();
     private readonly loader = new TextureLoader();
 
     /** Number of different meshes so far. */
@@ -32,6 +44,32 @@ export class SharedMeshes {
             loadTexture: (index: number) => this.texture(parser, index),
         }) as GLTFLoaderPlugin;
 
+    /** Returns how much memory a tile takes on the graphics card, without what it shares with others, bytes. */
+    ownBytes(tile: Object3D): number {
+        const seen = new Set<BufferGeometry | Texture>();
+        let bytes = 0;
+        const isNew = (part: BufferGeometry | Texture): boolean => {
+            const found = !this.shared.has(part) && !seen.has(part);
+            seen.add(part);
+            return found;
+        };
+        tile.traverse((node) => {
+            if (!(node instanceof Mesh)) return;
+            const { geometry, material } = node as Mesh;
+            if (node instanceof InstancedMesh) bytes += node.instanceMatrix.array.byteLength;
+            if (isNew(geometry))
+                for (const { array } of [...Object.values(geometry.attributes), geometry.index ?? []].flat()) bytes += array.byteLength;
+            for (const one of [material].flat())
+                for (const value of Object.values(one) as unknown[]) {
+                    if (!(value instanceof Texture) || !isNew(value)) continue;
+                    const { width, height } = value.image as { width: number; height: number };
+                    // Mipmaps are another third.
+                    bytes += (width * height * 16) / 3;
+                }
+        });
+        return bytes;
+    }
+
     clear(): void {
         this.meshes.clear();
         this.images.clear();
@@ -46,8 +84,11 @@ export class SharedMeshes {
             this.meshes.set(key, made);
             made.catch(() => this.meshes.delete(key));
         }
-        // A node has only one parent; geometry and materials stay the same.
-        return made.then((mesh) => mesh.clone());
+        return made.then((mesh) => {
+            if (!known) mesh.traverse((node) => node instanceof Mesh && this.shared.add((node as Mesh).geometry));
+            // A node has only one parent; geometry and materials stay the same.
+            return mesh.clone();
+        });
     }
 
     private texture(parser: GLTFParser, index: number): Promise<Texture> | null {
@@ -56,6 +97,7 @@ export class SharedMeshes {
         const known = this.images.get(address);
         if (known) return known;
         const made = this.loader.loadAsync(address).then((texture) => {
+            this.shared.add(texture);
             texture.flipY = false;
             texture.wrapS = texture.wrapT = RepeatWrapping;
             texture.magFilter = LinearFilter;
