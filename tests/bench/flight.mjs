@@ -1,6 +1,7 @@
 // A flight through a world as the page streams it, and a month day by day, in headless Chromium.
 //   node tests/bench/flight.mjs URL [--world beech,seed=7,extent=1024] [--metres 200] [--speed 5] [--step 0.1]
 //                               [--low 1.7] [--high 10] [--days 240-270] [--picture FILE.png]
+//                               [--part flight|month]
 // The flight: the camera stands until the first view is sharp, then flies to the east through the centre of the world,
 // from --low up to --high metres above the ground and down again, in steps of --step seconds. The month: in a browser
 // without a cache the camera stands, and days follow one another, each when all of the one before has come. Prints
@@ -24,6 +25,7 @@ const { values: options, positionals } = parseArgs({
         high: { type: "string", default: "10" },
         days: { type: "string", default: "240-270" },
         picture: { type: "string" },
+        part: { type: "string", default: "flight+month" },
     },
 });
 const base = (positionals[0] ?? "http://127.0.0.1:8080").replace(/\/+$/, "");
@@ -102,6 +104,8 @@ async function opened(browser, script) {
     const page = await context.newPage();
     page.setDefaultTimeout(patience);
     const log = await follow(page);
+    // 3d-tiles-renderer takes what has come in frames, and Chromium has none while nothing is drawn on a busy machine.
+    await page.addInitScript(() => (window.requestAnimationFrame = (act) => setTimeout(() => act(performance.now()), 1000 / 60)));
     await page.goto(`${base}/livez`);
     await page.addScriptTag({ content: script, type: "module" });
     await page.waitForFunction(() => window.flight);
@@ -209,8 +213,8 @@ async function month(browser, script) {
 const script = await bundled(path.join(root, "tests/bench/flight_page.mjs"));
 const browser = await launchBrowser();
 try {
-    const good = [await flight(browser, script), await month(browser, script)];
-    process.exitCode = good.every(Boolean) ? 0 : 1;
+    for (const [name, part] of [["flight", flight], ["month", month]])
+        if (options.part.includes(name) && !(await part(browser, script))) process.exitCode = 1;
 } finally {
     await browser.close();
 }

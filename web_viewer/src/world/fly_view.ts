@@ -14,9 +14,9 @@ import type { WorldStage } from "./world_stage";
 
 /** Error on the screen at which a finer tile is wanted, pixels. */
 const errorTarget = 16;
-/** Memory of the graphics card for tiles, bytes: what is kept that is not in view, and what no view may exceed. At 1920
+/** Memory of the graphics card for tiles, bytes: what is cached though not in view, and what no view may exceed. At 1920
  *  by 1080 pixels a view takes 0.5e9, and twice as much while a month follows another. */
-const memory = { kept: 0.6e9, most: 1.2e9 };
+const memory = { cached: 0.6e9, most: 1.2e9 };
 /** A layer counts as loaded after this many frames in which nothing was on its way. */
 const quietFrames = 4;
 
@@ -182,7 +182,7 @@ export class FlyView {
         const set: TileSet = { address, tiles, quiet: 0, failed: false };
         tiles.errorTarget = errorTarget;
         // All renderers of tiles have the same cache.
-        tiles.lruCache.minBytesSize = memory.kept;
+        tiles.lruCache.minBytesSize = memory.cached;
         tiles.lruCache.maxBytesSize = memory.most;
         // The renderer would count a tree once for each tile that shows it, and stop loading: its cache seems full.
         (tiles as unknown as TileInternals).calculateBytesUsed = (_, scene) => (scene ? this.meshes.ownBytes(scene) : 0);
