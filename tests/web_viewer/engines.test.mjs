@@ -170,7 +170,7 @@ for (const instancing of ["none", "gpu"])
     });
 
 const ofTiles = "beech,seed=7,extent=256";
-const leafTile = [5, 17, 15];
+const leafTile = [5, 14, 21];
 
 for (const [profile, layer, time] of [
     ["core", "ground", "y80m10"],

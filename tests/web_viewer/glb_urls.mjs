@@ -99,10 +99,10 @@ const lods = ["", "lod=1", "lod=2", "lod=3", "triangles=9000"];
 /** Returns tiles of a world that show something: of each profile and layer from the coarsest to the finest. */
 function tiles(world) {
     const places = {
-        "y80m10/ground": ["0/0/0", "3/4/3", "5/17/15", "5/0/31"],
-        "y80m10/trees": ["1/1/0", "3/4/3", "4/8/7", "5/0/31"],
-        "y80m6/floor": ["3/4/3", "4/8/7", "5/17/15", "5/0/31"],
-        "y80d270/fungi": ["3/4/3", "3/5/2", "4/8/7", "5/17/15"],
+        "y80m10/ground": ["0/0/0", "3/4/3", "5/14/21", "5/0/31"],
+        "y80m10/trees": ["1/1/0", "3/3/5", "4/7/10", "5/0/31"],
+        "y80m6/floor": ["3/3/5", "4/7/10", "5/14/21", "5/0/31"],
+        "y80d270/fungi": ["3/3/5", "3/2/2", "4/7/10", "5/14/21"],
     };
     return ["core", "web"].flatMap((profile) =>
         Object.entries(places).flatMap(([layer, all]) => all.map((place) => `${world}/${profile}/${layer}/${place}`)),

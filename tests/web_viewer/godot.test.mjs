@@ -130,7 +130,7 @@ async function jsonOfFile(route) {
 const world = "worlds/beech,seed=7,extent=256";
 
 test("a plot of a world opens with all its meshes and images", async () => {
-    const json = await jsonOfFile(`${world}/y80d270/plot.glb?x=20&y=-5&size=4&lod=2&texture_size=256&litter=5`);
+    const json = await jsonOfFile(`${world}/y80d270/plot.glb?x=20&y=-5&size=4&lod=2&texture_size=256&layers=ground+trees+fungi`);
     const { plot } = found;
     assert.deepEqual(plot.statuses, [200]);
     assert.equal(plot.meshes, json.nodes.filter(({ mesh }) => mesh !== undefined).length);
@@ -142,15 +142,15 @@ test("a plot of a world opens with all its meshes and images", async () => {
 test("tiles of worlds open inside their boxes", async () => {
     for (const layer of ["ground", "trees", "fungi"]) {
         const folder = `${world}/core/${layer === "fungi" ? "y80d270" : "y80m10"}/${layer}`;
-        const json = await jsonOfFile(`${folder}/5/17/15.glb`);
+        const json = await jsonOfFile(`${folder}/5/14/21.glb`);
         const tile = found[layer];
         assert.deepEqual(tile.statuses, [200], layer);
         assert.equal(tile.meshes, json.nodes.filter(({ mesh }) => mesh !== undefined).length, layer);
         assert.ok(tile.meshes > 0, layer);
         assert.equal(tile.triangles, json.asset.extras.triangles, layer);
         assert.ok(tile.pictures, layer);
-        const subtree = new Uint8Array(await (await fetch(`${server}/v1/${folder}/3/4/3.subtree`)).arrayBuffer());
-        const box = boxInSubtree(subtree, numberInSubtree(2, 17 & 3, 15 & 3));
+        const subtree = new Uint8Array(await (await fetch(`${server}/v1/${folder}/3/3/5.subtree`)).arrayBuffer());
+        const box = boxInSubtree(subtree, numberInSubtree(2, 14 & 3, 21 & 3));
         // East, up and south in the file are east, north and up in the box.
         const inside = [[tile.min[0], tile.max[0]], [-tile.max[2], -tile.min[2]], [tile.min[1], tile.max[1]]];
         for (let axis = 0; axis < 3; ++axis)

@@ -121,10 +121,10 @@ func _ready() -> void:
 			"count": part.multimesh.instance_count, "triangles": triangles(part.multimesh.mesh)})})
 
 	var world := "/v1/worlds/beech,seed=7,extent=256/"
-	report("plot", await shown_file(world + "y80d270/plot.glb?x=20&y=-5&size=4&lod=2&texture_size=256&litter=5"))
+	report("plot", await shown_file(world + "y80d270/plot.glb?x=20&y=-5&size=4&lod=2&texture_size=256&layers=ground+trees+fungi"))
 	for tile in ["ground", "trees", "fungi"]:
 		var time := "y80d270" if tile == "fungi" else "y80m10"
-		report(tile, await shown_file(world + "core/" + time + "/" + tile + "/5/17/15.glb"))
+		report(tile, await shown_file(world + "core/" + time + "/" + tile + "/5/14/21.glb"))
 
 	var distant := SporeprintModel.new()
 	distant.parameters = {"texture_size": 1024, "seed": 3, "lod": 2, "impostor": "true"}

@@ -40,9 +40,9 @@ const sheets = {
         columns: 3,
         cell: [480, 303],
         part: [0, 122, 1024, 646],
-        // The days of late summer and autumn on which most of them are open.
-        cells: [[61, 276], [66, 262], [71, 246], [76, 270], [81, 278], [86, 297]].map(([year, day]) => [
-            plot(parasols, `y${year}d${day}`, "x=73.4&y=84.4&size=17&view=aslant&width=1024&height=768"),
+        // The days of summer and autumn on which most of them are open.
+        cells: [[61, 277], [66, 192], [71, 207], [76, 264], [81, 266], [86, 303]].map(([year, day]) => [
+            plot(parasols, `y${year}d${day}`, "x=-11&y=-11.5&size=20&view=aslant&width=1024&height=768"),
             `year ${year}`,
         ]),
     },

@@ -286,6 +286,7 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     });
     const terrain: string = sent?.terrain ?? "";
     const ofTerrain = { params: { path: { terrain } } };
+    await client.HEAD("/v1/terrains/{terrain}.json", ofTerrain);
     const { data: ground } = await client.GET("/v1/terrains/{terrain}.json", ofTerrain);
     if (ground?.side !== 65 || ground.metres !== 320) throw new Error("a terrain is not described as it was sent");
     await both(client.HEAD("/v1/terrains/{terrain}.png", ofTerrain), client.GET("/v1/terrains/{terrain}.png", { ...ofTerrain, ...binary }));

@@ -239,7 +239,7 @@ TEST(WorldParts, HaveNoBodiesWhereAMaskIsBlack) {
     edits.masks["hypholoma_fasciculare"] = std::make_shared<const WorldMask>(stripes);
     const World masked = edited(beech(), settled(std::move(edits)));
     std::size_t of_stripes = 0;
-    const std::vector<FruitBody> bodies = bodies_of_year(masked, {-32, -32, 32, 32}, 80, shared());
+    const std::vector<FruitBody> bodies = bodies_of_year(masked, {-64, -64, 64, 64}, 80, shared());
     for (const FruitBody& body : bodies) {
         ASSERT_GT(squares.at(body.at), 0.0);
         if (masked.species_ids[body.species] == "hypholoma_fasciculare") {

@@ -134,7 +134,7 @@ TEST(Tile, GroundAtABorderIsThatOfTheNeighbourBitForBit) {
 
 TEST(Tile, OfTheProfileCoreContainsAllThatItShows) {
     for (const auto& [index, layer] : {std::pair{TileIndex{5, 16, 16}, PlotLayer::ground},
-                                       {{5, 16, 16}, PlotLayer::trees},
+                                       {{5, 16, 17}, PlotLayer::trees},
                                        {{3, 4, 4}, PlotLayer::floor},
                                        {{5, 16, 16}, PlotLayer::floor},
                                        {{4, 8, 8}, PlotLayer::floor},
@@ -147,7 +147,7 @@ TEST(Tile, OfTheProfileCoreContainsAllThatItShows) {
 }
 
 TEST(Tile, OfTheProfileWebSharesGeometryWithTheFilesOfItsShapes) {
-    const Value json = wood().json({5, 16, 16}, PlotLayer::trees);
+    const Value json = wood().json({5, 16, 17}, PlotLayer::trees);
     bool is_found = false;
     for (const Value& buffer : json.find("buffers")->items()) {
         const Value* const uri = buffer.find("uri");
