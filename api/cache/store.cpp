@@ -4,6 +4,7 @@
 
 #include "core/atlas/atlas.h"
 #include "core/grow/tree.h"
+#include "core/grow/world/plot_bodies.h"
 #include "core/silhouette/morph_set.h"
 #include "core/world/world.h"
 
@@ -25,6 +26,7 @@ std::size_t weight_of(const BlockPart& part) {
     if (const SharedTree* tree = std::get_if<SharedTree>(&part))
         // Position, normal, tangent, texture coordinates and weights of wind of each vertex.
         return (*tree)->vertices() * 64 + (*tree)->triangles() * 12;
+    if (const SharedBody* body = std::get_if<SharedBody>(&part)) return (*body)->bytes();
     if (const SharedBlock* block = std::get_if<SharedBlock>(&part)) return (*block)->bytes();
     if (const SharedMycelia* mycelia = std::get_if<SharedMycelia>(&part))
         return (*mycelia)->bytes();
@@ -218,6 +220,10 @@ JobContext::JobContext(Store& store, std::stop_token stop, const Observer& obser
     execution_.caches.trees = [this](const std::string& key,
                                      const std::function<SharedTree()>& make) {
         return part_of<TreeMeshes>(key, make);
+    };
+    execution_.caches.bodies = [this](const std::string& key,
+                                      const std::function<SharedBody()>& make) {
+        return part_of<BodyShape>(key, make);
     };
 }
 

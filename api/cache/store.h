@@ -33,9 +33,10 @@ using SharedBlock = std::shared_ptr<const Block>;
 using SharedMycelia = std::shared_ptr<const BlockMycelia>;
 using SharedSeason = std::shared_ptr<const BlockSeason>;
 using SharedTree = std::shared_ptr<const TreeMeshes>;
+using SharedBody = std::shared_ptr<const BodyShape>;
 
 /// The values of the cache of blocks of worlds, all within one budget.
-using BlockPart = std::variant<SharedBlock, SharedMycelia, SharedSeason, SharedTree>;
+using BlockPart = std::variant<SharedBlock, SharedMycelia, SharedSeason, SharedTree, SharedBody>;
 
 /// The values of the image cache: encoded files, and the paintings from which images of mixes are
 /// blended. Both share one budget.
@@ -54,9 +55,9 @@ struct Store {
     ComputingCache<Painted> images;
     ComputingCache<Morph> morphs;
     ComputingCache<Bred> offspring;
-    ComputingCache<SharedGround> grounds;     ///< a quarter of the bytes for worlds
-    ComputingCache<SharedWorld> worlds;       ///< likewise
-    ComputingCache<BlockPart> blocks;         ///< the rest; also the meshes of trees
+    ComputingCache<SharedGround> grounds;  ///< a quarter of the bytes for worlds
+    ComputingCache<SharedWorld> worlds;    ///< likewise
+    ComputingCache<BlockPart> blocks;      ///< the rest; also the meshes of trees and fruit bodies
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     std::optional<DirectoryStore> terrains;   ///< likewise: files of terrains by their ids
     Counters counters;

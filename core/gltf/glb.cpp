@@ -231,7 +231,8 @@ std::vector<float> steps_of(const GlbScene& scene) {
 
 TextureData data_for(const GlbMaterial& material) {
     if (!is_textured(material)) return TextureData::none;
-    return material.is_external ? TextureData::coordinates : TextureData::all;
+    return material.is_external || has_base_colour_alone(material) ? TextureData::coordinates
+                                                                   : TextureData::all;
 }
 
 /// Returns the member of a primitive that maps variants to materials, with a leading comma; empty
@@ -302,7 +303,6 @@ std::vector<PrimitiveJson> write_linked(const GlbScene& scene,
     check_linked(scene);
     std::vector<PrimitiveJson> written;
     std::size_t in_file = tables.binary, first = 0;
-    Body elsewhere;
     for (const GlbMesh& mesh : scene.meshes) {
         const auto own = std::span(parts).subspan(first, mesh.primitives.size());
         first += mesh.primitives.size();
@@ -310,7 +310,7 @@ std::vector<PrimitiveJson> write_linked(const GlbScene& scene,
         tables.buffer = is_linked ? linked.size() + 1 : 0;
         tables.binary = is_linked ? 0 : in_file;
         const std::vector<PrimitiveJson> primitives = write_primitives(
-            own, scene.sway, scene.geometry, parallel, tables, is_linked ? elsewhere : geometries);
+            own, scene.sway, scene.geometry, parallel, tables, is_linked ? nullptr : &geometries);
         written.insert(written.end(), primitives.begin(), primitives.end());
         if (is_linked)
             linked.push_back({mesh.geometry_uri, tables.binary});
@@ -333,7 +333,7 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps,
     const std::vector<PrimitiveJson> written =
         has_linked_geometry(scene)
             ? write_linked(scene, parts, parallel, tables, geometries, linked)
-            : write_primitives(parts, scene.sway, scene.geometry, parallel, tables, geometries);
+            : write_primitives(parts, scene.sway, scene.geometry, parallel, tables, &geometries);
     std::string meshes;
     auto next = written.begin();
     for (const GlbMesh& mesh : scene.meshes) {
@@ -483,7 +483,7 @@ Body geometry_bytes(const GlbScene& scene, const Parallel& parallel) {
     Tables tables;
     Body geometries;
     static_cast<void>(write_primitives(parts_of(scene, steps_of(scene)), scene.sway, scene.geometry,
-                                       parallel, tables, geometries));
+                                       parallel, tables, &geometries));
     return geometries;
 }
 

@@ -59,7 +59,7 @@ struct TileLooks {
 /// A material with its images.
 struct GlbMaterial {
     std::string name;                  ///< also of its images, with their kinds: "oak_base_color"
-    const ImageSet* images = nullptr;  ///< embedded when given
+    const ImageSet* images = nullptr;  ///< embedded when given; the base colour may be alone
     std::array<std::string, 3> image_urls = {};  ///< linked when not empty
     bool is_external = false;  ///< the addresses stand in its extras, and readers load no images
     MaterialLook look = {};
@@ -102,6 +102,9 @@ struct GlbMesh {
     /// Address of its geometry, relative to that of the file: what geometry_bytes() returns for a scene of this mesh
     /// alone. Empty for geometry in the file. Readers must resolve it.
     std::string geometry_uri = {};
+    /// Of its positions where they are quantised, metres: a power of two that all of them are multiples of keeps them
+    /// exact, so that meshes of several files meet. 0 for the finest step that the mesh allows.
+    float step = 0.0F;
 };
 
 /// The transform of an instance.
@@ -168,9 +171,8 @@ struct GlbScene {
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture
 /// coordinates as normalised u16, u16 indices where they fit. Texture coordinates are written if and
-/// only if the material has images, tangents unless these are external, tints as COLOR_0 unless that
-/// holds the sway; materials with the same
-/// images share their textures, nodes with the same instances their accessors. Identity transforms
+/// only if the material has images, tangents unless these are external or the base colour is alone,
+/// tints as COLOR_0 unless that holds the sway; materials with the same images share their textures, nodes with the same instances their accessors. Identity transforms
 /// of nodes are omitted. Targets are dense: positions and normals move nearly everywhere, so sparse
 /// accessors would be larger.
 ///
@@ -185,9 +187,10 @@ struct GlbScene {
 /// throws    GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
 ///           material needs, an index of no mesh, material or node, a node with a mesh and children,
 ///           a node with two parents, a rotation that is no unit quaternion, a zero scale,
-///           targets, variants or a clip that do not fit, sway as texture coordinates of a mesh
-///           without others, geometry with an address that is quantised or has targets, or beside no data in
-///           the file, or a file of more than 2^32 - 1 bytes
+///           targets, variants or a clip that do not fit, a step that is too fine for its mesh, sway
+///           as texture coordinates of a mesh without others, geometry with an address that is
+///           quantised or has targets, or beside no data in the file, or a file of more than 2^32 - 1
+///           bytes
 [[nodiscard]] Body glb(const GlbScene& scene, const Parallel& parallel = in_turn);
 
 /// Returns the geometry of all meshes of a scene as it lies in its file, and nothing else: what other files name as

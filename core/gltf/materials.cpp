@@ -11,11 +11,19 @@ namespace {
 
 constexpr const char* texture_webp = "EXT_texture_webp";
 
+/// Returns the number of images: three, or that of the base colour.
+std::size_t count_of(const ImageSet* files) { return files && files->files[1].size == 0 ? 1 : 3; }
+
 }  // namespace
+
+bool has_base_colour_alone(const GlbMaterial& material) {
+    return material.images && count_of(material.images) == 1;
+}
 
 std::size_t TextureTables::add_images(const std::string& name, const ImageSet* files,
                                       const std::array<std::string, 3>& urls, Tables& tables) {
-    for (std::size_t i = 0; i < urls.size(); ++i) {
+    const std::size_t count = count_of(files);
+    for (std::size_t i = 0; i < count; ++i) {
         append_quoted((images += separator(images)) += "{\"name\":",
                       name + '_' + sporeprint::name(static_cast<ImageKind>(i)));
         if (files) {
@@ -26,8 +34,8 @@ std::size_t TextureTables::add_images(const std::string& name, const ImageSet* f
         }
         images += '}';
     }
-    image_count_ += urls.size();
-    return image_count_ - urls.size();
+    image_count_ += count;
+    return image_count_ - count;
 }
 
 void TextureTables::add_file(const Slice& file, const char* type, Tables& tables) {
@@ -47,7 +55,8 @@ std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tabl
         sampler_of(material.repeats_u ? Sampling::repeated : Sampling::clamped);
     const std::size_t first = texture_count_;
     sources_.push_back({&material, first});
-    texture_count_ += 3;
+    const std::size_t count = count_of(material.images);
+    texture_count_ += count;
     const bool is_webp = (material.images ? material.images->format : material.url_format) ==
                          ImageFormat::webp,
                falls_back = material.fallback || !material.fallback_urls[0].empty();
@@ -58,7 +67,7 @@ std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tabl
                    : source;
     if (is_webp && falls_back) used.use(texture_webp);
     if (is_webp && !falls_back) used.require(texture_webp);
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         append((textures += separator(textures)) += "{\"sampler\":", sampler);
         if (falls_back || !is_webp) append(textures += ",\"source\":", fallback + i);
         if (is_webp) {
@@ -225,6 +234,7 @@ std::string material_json(const GlbMaterial& material, bool extended, TextureTab
                external_images_json(material) + "}";
     const std::size_t first = texture_tables.textures_of(material, tables, used);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
+    if (has_base_colour_alone(material)) return json + "},\"metallicFactor\":0}}";
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);
     append(json += "},\"occlusionTexture\":{\"index\":", first + 2);

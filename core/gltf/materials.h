@@ -43,7 +43,7 @@ struct TextureTables {
                                Tables& tables);
 
   private:
-    /// A material that added three textures, and the index of the first.
+    /// A material that added textures, and the index of the first.
     struct Source {
         const GlbMaterial* material;
         std::size_t first;
@@ -63,7 +63,7 @@ struct TextureTables {
     /// Adds the view of an embedded image.
     void add_file(const Slice& file, const char* type, Tables& tables);
 
-    /// Adds three images, embedded or linked, with names that begin with `name`; returns the index of
+    /// Adds the images of a material, embedded or linked, with names that begin with `name`; returns the index of
     /// the first.
     std::size_t add_images(const std::string& name, const ImageSet* files,
                            const std::array<std::string, 3>& urls, Tables& tables);
@@ -72,6 +72,9 @@ struct TextureTables {
 
 /// Returns true if a material has images, embedded, linked or external.
 [[nodiscard]] bool is_textured(const GlbMaterial& material);
+
+/// Returns true for a material whose embedded base colour has no other images beside it.
+[[nodiscard]] bool has_base_colour_alone(const GlbMaterial& material);
 
 /// Returns the JSON object of a material; adds its textures to the tables.
 ///

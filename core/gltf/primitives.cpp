@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <glm/common.hpp>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -176,8 +177,45 @@ class PrimitiveMembers {
     std::string attributes_, targets_;
 };
 
+/// Appends what only has to be counted if the bytes are elsewhere.
+class OptionalChunk {
+  public:
+    OptionalChunk(std::size_t size, bool is_written) {
+        if (is_written) chunk_ = std::make_unique<Chunk>(size);
+    }
+
+    template <class T>
+    void append(const std::vector<T>& values) {
+        if (chunk_) chunk_->append(std::span<const T>(values));
+    }
+    /// Appends a value for each item, which has its own type in the file.
+    template <class Items, class Value>
+    void append_each(const Items& items, const Value& value) {
+        if (!chunk_) return;
+        for (const auto& item : items) put(chunk_->at, value(item));
+    }
+    /// Sets and appends a stream of four bytes for each of n vertices.
+    void append(StreamPlan& plan, std::size_t n) {
+        Stream& stream = plan.stream;
+        stream.items = n;
+        stream.stride = 4;
+        stream.length = 4 * n;
+        if (!chunk_) return;
+        plan.set(stream);
+        stream.encode();
+        chunk_->append(std::span<const std::uint8_t>(*stream.bytes));
+    }
+    void move_to(Body& body) {
+        if (chunk_) body.emplace_back(std::move(chunk_->bytes));
+    }
+
+  private:
+    std::unique_ptr<Chunk> chunk_;
+};
+
+/// body  null if the bytes are elsewhere
 PrimitiveJson write_floats(const GlbPrimitive& primitive, TextureData data, GlbSway sway,
-                           Tables& tables, Body& body) {
+                           Tables& tables, Body* body) {
     const Mesh& mesh = *primitive.mesh;
     check_mesh(mesh, data);
     check_targets(primitive);
@@ -189,42 +227,42 @@ PrimitiveJson write_floats(const GlbPrimitive& primitive, TextureData data, GlbS
                                   : sway == GlbSway::texture_coordinates ? 8
                                                                          : 4;
     const bool has_tints = writes_tints(mesh, sway);
-    Chunk chunk(n * (12 + 12 + (has_tangents ? 16 : 0) + (has_coordinates ? 4 : 0) + sway_size +
-                     (has_tints ? 4 : 0)) +
-                padded(index_bytes));
+    OptionalChunk chunk(n * (12 + 12 + (has_tangents ? 16 : 0) + (has_coordinates ? 4 : 0) +
+                             sway_size + (has_tints ? 4 : 0)) +
+                            padded(index_bytes),
+                        body != nullptr);
     PrimitiveMembers out;
-    chunk.append(std::span<const glm::vec3>(mesh.positions));
+    chunk.append(mesh.positions);
     out.attribute("POSITION", tables.positions(mesh.positions));
-    chunk.append(std::span<const glm::vec3>(mesh.normals));
+    chunk.append(mesh.normals);
     out.attribute("NORMAL", tables.vectors(mesh.normals));
     if (has_tangents) {
-        chunk.append(std::span<const glm::vec4>(mesh.tangents));
+        chunk.append(mesh.tangents);
         out.attribute("TANGENT",
                       tables.accessor(n, float_component, "VEC4", n * 16, vertex_target));
     }
     if (has_coordinates) {
-        for (const glm::vec2& uv : mesh.texture_coordinates) {
-            put(chunk.at, normalized_coordinates(uv));
-        }
+        chunk.append_each(mesh.texture_coordinates,
+                          [](const glm::vec2& uv) { return normalized_coordinates(uv); });
         out.attribute("TEXCOORD_0",
                       tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
     std::vector<StreamPlan> plans = sway_streams(mesh, has_coordinates, sway, false);
     if (has_tints) plans.push_back(tint_stream(mesh, false));
-    for (auto& [stream, set] : plans) {
-        set(stream);
-        stream.encode();
-        chunk.append(std::span<const std::uint8_t>(*stream.bytes));
-        out.attribute(stream.attribute, tables.stream(stream));
+    for (StreamPlan& plan : plans) {
+        chunk.append(plan, n);
+        out.attribute(plan.stream.attribute, tables.stream(plan.stream));
     }
     if (small)
-        for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
+        chunk.append_each(mesh.indices,
+                          [](std::uint32_t i) { return static_cast<std::uint16_t>(i); });
     else
-        chunk.append(std::span<const std::uint32_t>(mesh.indices));
+        chunk.append(mesh.indices);
     const std::size_t indices =
         tables.accessor(mesh.indices.size(), small ? u16_component : u32_component, "SCALAR",
                         index_bytes, index_target);
-    body.emplace_back(std::move(chunk.bytes));
+    if (body == nullptr) return out.json(indices);
+    chunk.move_to(*body);
     if (primitive.targets.empty()) return out.json(indices);
     Chunk offsets(primitive.targets.size() * n *
                   (primitive.targets.front().normals.empty() ? 12 : 24));
@@ -238,7 +276,7 @@ PrimitiveJson write_floats(const GlbPrimitive& primitive, TextureData data, GlbS
         }
         out.target(positions, normals);
     }
-    body.emplace_back(std::move(offsets.bytes));
+    body->emplace_back(std::move(offsets.bytes));
     return out.json(indices);
 }
 
@@ -359,7 +397,7 @@ class QuantizedPrimitive {
 
 std::vector<PrimitiveJson> write_primitives(std::span<const PrimitivePart> parts, GlbSway sway,
                                             GlbGeometry storage, const Parallel& parallel,
-                                            Tables& tables, Body& body) {
+                                            Tables& tables, Body* body) {
     std::vector<PrimitiveJson> written;
     written.reserve(parts.size());
     if (storage == GlbGeometry::floats) {
@@ -379,7 +417,7 @@ std::vector<PrimitiveJson> write_primitives(std::span<const PrimitivePart> parts
     parallel(first);
     parallel(last);
     for (const QuantizedPrimitive& primitive : primitives)
-        written.push_back(primitive.write(tables, body));
+        written.push_back(primitive.write(tables, *body));
     return written;
 }
 
@@ -404,6 +442,12 @@ float step_of(const GlbMesh& mesh, GlbGeometry storage) {
         largest = largest_coordinate(primitive.mesh->positions, largest);
         for (const MorphTarget& target : primitive.targets)
             largest = largest_coordinate(target.positions, largest);
+    }
+    if (mesh.step > 0.0F) {
+        constexpr float most = 32767.0F;
+        if (largest > most * mesh.step)
+            throw GenerationError("a mesh is too large for the step of its positions");
+        return mesh.step;
     }
     return largest > 0.0F ? largest / static_cast<float>(most_quantized) : 1.0F;
 }

@@ -33,12 +33,13 @@ struct PrimitiveJson {
 /// primitives without targets have another order than those of their meshes.
 ///
 /// sway    where that of a mesh is written, if it has one
+/// body    null for floats whose bytes are elsewhere: only the tables are filled
 /// throws  GenerationError for a mesh that is empty or lacks what its material needs, and for a
 ///         target with another number of vertices
 [[nodiscard]] std::vector<PrimitiveJson> write_primitives(std::span<const PrimitivePart> parts,
                                                           GlbSway sway, GlbGeometry storage,
                                                           const Parallel& parallel, Tables& tables,
-                                                          Body& body);
+                                                          Body* body);
 
 /// Returns the weights and names of the targets of a mesh as JSON members, with a leading comma.
 ///
@@ -46,7 +47,9 @@ struct PrimitiveJson {
 [[nodiscard]] std::string target_weights_json(const GlbMesh& mesh);
 
 /// Returns the step of the positions of a mesh and its targets, by which its nodes are scaled: 1 for
-/// floats.
+/// floats, and its own if it has one.
+///
+/// throws  GenerationError for one that is too fine
 [[nodiscard]] float step_of(const GlbMesh& mesh, GlbGeometry storage);
 
 }  // namespace sporeprint::gltf

@@ -89,7 +89,7 @@ std::size_t Tables::stream(const Stream& stream) {
         views += "}}";
     }
     views += '}';
-    binary += stream.bytes->size();
+    binary += padded(stream.length);
     return count++;
 }
 

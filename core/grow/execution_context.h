@@ -39,6 +39,7 @@ class Atlas;
 struct Block;
 struct BlockMycelia;
 struct BlockSeason;
+struct BodyShape;
 struct Ground;
 struct TerrainMap;
 struct TreeMeshes;
@@ -62,6 +63,7 @@ struct Caches {
     GetOrCompute<BlockMycelia> mycelia = uncached<BlockMycelia>;
     GetOrCompute<BlockSeason> seasons = uncached<BlockSeason>;
     GetOrCompute<TreeMeshes> trees = uncached<TreeMeshes>;  ///< that stand on plots
+    GetOrCompute<BodyShape> bodies = uncached<BodyShape>;   ///< mushrooms that show others on tiles
 };
 
 struct ExecutionContext {

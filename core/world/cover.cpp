@@ -137,8 +137,7 @@ Cover CoverField::at(double x, double y) const {
     return out;
 }
 
-CoverField cover_field(const WorldBox& box, double margin,
-                       const std::function<Cover(double, double)>& cover, double step) {
+CoverField cover_lattice(const WorldBox& box, double margin, double step) {
     const auto number = [step](double metres) {
         return static_cast<int>(std::floor(metres / step));
     };
@@ -148,6 +147,12 @@ CoverField cover_field(const WorldBox& box, double margin,
     field.south = number(box.south - margin);
     field.columns = number(box.east + margin) + 2 - field.west;
     field.rows = number(box.north + margin) + 2 - field.south;
+    return field;
+}
+
+CoverField cover_field(const WorldBox& box, double margin,
+                       const std::function<Cover(double, double)>& cover, double step) {
+    CoverField field = cover_lattice(box, margin, step);
     field.nodes.reserve(static_cast<std::size_t>(field.columns) *
                         static_cast<std::size_t>(field.rows));
     for (int row = 0; row < field.rows; ++row)

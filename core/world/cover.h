@@ -99,6 +99,10 @@ struct CoverField {
     }
 };
 
+/// Returns where the nodes of the field of a rectangle lie, without their cover.
+[[nodiscard]] CoverField cover_lattice(const WorldBox& box, double margin,
+                                       double step = CoverField::finest_step);
+
 /// Computes the cover of a rectangle and of some ground round it.
 ///
 /// margin  metres

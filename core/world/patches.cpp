@@ -70,16 +70,22 @@ double PatchCanopy::at(WorldPoint place) {
     if (stand_->params.density <= 0.0) return 0.0;
     const double glade = stand_->params.glade * units_of_metre;
     if (static_cast<double>(square_distance(place, {})) < glade * glade) return 0.0;
-    const CellIndex cell{floor_div(place.x, patch_units), floor_div(place.y, patch_units)};
-    const Known* nearest = nullptr;
-    for (std::int32_t dy = -2; dy <= 2; ++dy)
-        for (std::int32_t dx = -2; dx <= 2; ++dx) {
-            const Known& one = patch({cell.x + dx, cell.y + dy});
-            if (nearest == nullptr ||
-                square_distance(place, one.seed) < square_distance(place, nearest->seed))
-                nearest = &one;
-        }
+    const auto& near = round({floor_div(place.x, patch_units), floor_div(place.y, patch_units)});
+    const Known* nearest = near.front();
+    for (const Known* one : near)
+        if (square_distance(place, one->seed) < square_distance(place, nearest->seed))
+            nearest = one;
     return nearest->height;
+}
+
+const PatchCanopy::Near& PatchCanopy::round(CellIndex cell) {
+    const auto [found, is_new] = near_.try_emplace({cell.x, cell.y});
+    if (!is_new) return found->second;
+    std::size_t i = 0;
+    for (std::int32_t dy = -2; dy <= 2; ++dy)
+        for (std::int32_t dx = -2; dx <= 2; ++dx)
+            found->second[i++] = &patch({cell.x + dx, cell.y + dy});
+    return found->second;
 }
 
 const PatchCanopy::Known& PatchCanopy::patch(CellIndex cell) {

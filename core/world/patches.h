@@ -1,6 +1,7 @@
 // Patches of a wood: pieces of about 22 m whose trees are of one age, because the same storms felled them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -62,11 +63,15 @@ class PatchCanopy {
         WorldPoint seed;
         double height = 0.0;
     };
+    /// The patches whose seeds may be the nearest to a place of a cell.
+    using Near = std::array<const Known*, 25>;
+    const Near& round(CellIndex cell);
     const Known& patch(CellIndex cell);
 
     const Stand* stand_;
     WorldTime time_;
     std::map<std::pair<std::int32_t, std::int32_t>, Known> known_;
+    std::map<std::pair<std::int32_t, std::int32_t>, Near> near_;  ///< of cells that were asked for
 };
 
 }  // namespace sporeprint

@@ -106,7 +106,7 @@ double FloorHeights::at(double x, double y) const {
     return height;
 }
 
-double slab_height(double height) { return std::floor(height / slab_step + 0.5) * slab_step; }
+double slab_height(double height, double step) { return std::floor(height / step + 0.5) * step; }
 
 Mesh slab_mesh(const SlabParams& params, const FloorHeights& floor) {
     return slab_mesh(params, [&floor](std::span<const double> x, std::span<const double> y) {
@@ -146,7 +146,7 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
         for (std::size_t column = 0; column < nodes; ++column) {
             const double s = static_cast<double>(column) / last,
                          t = static_cast<double>(row) / last;
-            const double up = slab_height(height(column + 1, row + 1)) - params.height;
+            const double up = slab_height(height(column + 1, row + 1), params.step) - params.height;
             lowest = std::min(lowest, up);
             const double east =
                 (height(column + 2, row + 1) - height(column, row + 1)) / (2.0 * step_x);
@@ -175,7 +175,7 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
         }
     mesh.tints.assign(mesh.positions.size(), glm::vec3(1.0F));
 
-    const auto bottom = static_cast<float>(slab_height(lowest - params.depth));
+    const auto bottom = static_cast<float>(slab_height(lowest - params.depth, params.step));
     Mesh below;
     const auto add = [&](const glm::vec3& at, const glm::vec3& normal, const glm::vec2& texture,
                          const glm::vec3& tint) {
@@ -206,6 +206,7 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
         add({0.0F, bottom, 0.0F}, {0.0F, -1.0F, 0.0F}, {0.5F, 0.5F}, tint_of_bottom);
     std::vector<std::uint32_t> rim;
     rim.reserve(4 * (nodes - 1));
+    const std::uint32_t rows = params.is_seen_from_above ? 2 : 3;
     for (std::size_t side = 0; side < 4; ++side) {
         const auto first = static_cast<std::uint32_t>(below.positions.size());
         const glm::vec2 inwards(-outwards[side].x, -outwards[side].z);
@@ -214,6 +215,7 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
             const glm::vec3 at = mesh.positions[top];
             const glm::vec2 texture = mesh.texture_coordinates[top];
             for (const float depth : {0.0F, static_cast<float>(first_depth), at.y - bottom}) {
+                if (rows == 2 && depth == static_cast<float>(first_depth)) continue;
                 // The image goes on as if the floor were folded down.
                 const glm::vec2 shown = texture + inwards * (depth / static_cast<float>(width));
                 add({at.x, at.y - depth, at.z}, outwards[side],
@@ -223,14 +225,16 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
             below.positions.back().y = bottom;
         }
         for (std::uint32_t i = 0; i + 1 < nodes; ++i)
-            for (std::uint32_t k = 0; k < 2; ++k) {
-                const std::uint32_t a = first + 3 * i + k, b = a + 3, c = a + 1, d = b + 1;
+            for (std::uint32_t k = 0; k + 1 < rows; ++k) {
+                const std::uint32_t a = first + rows * i + k, b = a + rows, c = a + 1, d = b + 1;
                 below.indices.insert(below.indices.end(), {a, c, d, a, d, b});
             }
         for (std::uint32_t i = 0; i + 1 < nodes; ++i) {
-            const std::uint32_t of_wall = first + 3 * i + 2;
-            rim.push_back(add(below.positions[of_wall], {0.0F, -1.0F, 0.0F},
-                              below.texture_coordinates[of_wall], tint_of_bottom));
+            const std::uint32_t of_wall = first + rows * i + rows - 1;
+            rim.push_back(params.is_seen_from_above
+                              ? of_wall
+                              : add(below.positions[of_wall], {0.0F, -1.0F, 0.0F},
+                                    below.texture_coordinates[of_wall], tint_of_bottom));
         }
     }
     for (std::size_t i = 0; i < rim.size(); ++i)

@@ -60,20 +60,23 @@ class FloorHeights {
     std::map<std::pair<int, int>, std::vector<TreeFoot>> near_;
 };
 
+/// Heights of the vertices of a slab are multiples of this, so that they are exact as floats.
+inline constexpr double slab_step = 1.0 / 4096.0;
+
+/// Returns a height as a multiple of a step.
+[[nodiscard]] double slab_height(double height, double step = slab_step);
+
 /// A slab of ground.
 struct SlabParams {
     WorldBox box;
     int nodes = 129;          ///< of the top along each side, at least 2
     int texture_side = 1024;  ///< of its images: the outermost texels are on the borders
-    double height = 0.0;      ///< in the world of what is at y = 0, a multiple of slab_step
+    double height = 0.0;      ///< in the world of what is at y = 0, a multiple of the step
     double depth = 0.4;       ///< below its lowest place, metres
+    double step = slab_step;  ///< that heights are multiples of: slab_step times a power of two
+    /// Walls have no more vertices than close the slab, and the bottom shares theirs.
+    bool is_seen_from_above = false;
 };
-
-/// Heights of the vertices of a slab are multiples of this, so that they are exact as floats.
-inline constexpr double slab_step = 1.0 / 4096.0;
-
-/// Returns a height as a multiple of slab_step.
-[[nodiscard]] double slab_height(double height);
 
 /// Returns a closed slab: the floor, walls and a level bottom. The middle of the box is at the origin, x
 /// to the east, z to the south.

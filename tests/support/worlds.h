@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/grow/world/parts.h"
+#include "core/grow/world/plot_bodies.h"
 #include "tests/support/atlas.h"
 
 namespace sporeprint {
@@ -39,6 +40,9 @@ class CachedParts {
         services.caches.trees = [this](const std::string& key, const auto& make) {
             return get(trees_, key, make);
         };
+        services.caches.bodies = [this](const std::string& key, const auto& make) {
+            return get(bodies_, key, make);
+        };
     }
     ExecutionContext services;
 
@@ -56,6 +60,7 @@ class CachedParts {
     Map<BlockMycelia> mycelia_;
     Map<BlockSeason> seasons_;
     Map<TreeMeshes> trees_;
+    Map<BodyShape> bodies_;
 };
 
 }  // namespace sporeprint

@@ -18,6 +18,7 @@
 #include "core/grow/painting.h"
 #include "core/grow/world/parts.h"
 #include "core/grow/world/tile.h"
+#include "core/grow/world/tile_ground.h"
 #include "core/grow/world/tiling.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -260,12 +261,13 @@ void make_of_ground(Resource& resource, const WorldParams& params,
 Cost cost_of_tile(const TileRequest& tile) {
     const double side = tile.tiling.side(tile.tile.level);
     if (!has_content(tile.layer, side)) return {.base = 200};
-    const auto texels = [](std::uint64_t length) { return 3 * length * length; };
     switch (tile.layer) {
         case PlotLayer::ground:
-            return {.base = side > coarsest_of_trees ? 20'000U : 15'000U,
-                    .texels = texels(side <= finest_tile ? 512 : 256),
-                    .bytes = 200'000};
+            return {.base = side > coarsest_of_trees ? 18'000U
+                            : side > finest_tile     ? 5'000U
+                                                     : 12'000U,
+                    .texels = texels_of_tile(side).all(),
+                    .bytes = 150'000};
         case PlotLayer::trees:
             return {.base = 8'000, .bytes = 40'000};
         case PlotLayer::floor:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,6 +46,25 @@ void compute_blocks(const World& world, const WorldBox& box, const ExecutionCont
             static_cast<void>(block_of_world(world, block, execution));
         });
     execution.parallel(tasks);
+}
+
+/// Returns the chosen trees and trunks of the blocks round a rectangle, by ascending ids.
+template <class IsTree, class IsWood>
+Block chosen_round(const World& world, const WorldBox& box, const ExecutionContext& execution,
+                   const IsTree& is_tree, const IsWood& is_wood) {
+    // Crowns shade places near a plot from shade_reach, and litter comes from there too.
+    constexpr double shading = 42.0, beside = 2.0;
+    const double reach = std::max(shading, longest_trunk(world.stand) + beside);
+    compute_blocks(world, grown(box, reach), execution);
+    Block out;
+    for (const CellIndex at : blocks_of(grown(box, reach))) {
+        const std::shared_ptr<const Block> block = block_of_world(world, at, execution);
+        std::ranges::copy_if(block->trees, std::back_inserter(out.trees), is_tree);
+        std::ranges::copy_if(block->dead, std::back_inserter(out.dead), is_wood);
+    }
+    sort_by_id(out.trees);
+    sort_by_id(out.dead);
+    return out;
 }
 
 /// Returns how far away lies what decides on the fruit bodies of a rectangle, metres.
@@ -249,27 +269,15 @@ std::shared_ptr<const BlockSeason> season_of_world(const World& world, CellIndex
 }
 
 Block blocks_round(const World& world, const WorldBox& box, const ExecutionContext& execution) {
-    // Crowns shade places near a plot from shade_reach, and litter comes from there too.
-    constexpr double shading = 42.0, beside = 2.0;
-    const double reach = std::max(shading, longest_trunk(world.stand) + beside);
-    compute_blocks(world, grown(box, reach), execution);
-    Block out;
-    for (const CellIndex at : blocks_of(grown(box, reach))) {
-        const std::shared_ptr<const Block> block = block_of_world(world, at, execution);
-        out.trees.insert(out.trees.end(), block->trees.begin(), block->trees.end());
-        out.dead.insert(out.dead.end(), block->dead.begin(), block->dead.end());
-    }
-    sort_by_id(out.trees);
-    sort_by_id(out.dead);
-    return out;
+    const auto all = [](const auto&) { return true; };
+    return chosen_round(world, box, execution, all, all);
 }
 
-Block present_at(Block block, WorldTime time) {
-    std::erase_if(block.trees, [&](const StandTree& tree) { return !tree.lives_at(time); });
-    std::erase_if(block.dead, [&](const DeadWood& wood) {
-        return !wood.stands_at(time) && !wood.lies_at(time);
-    });
-    return block;
+Block present_round(const World& world, const WorldBox& box, WorldTime time,
+                    const ExecutionContext& execution) {
+    return chosen_round(
+        world, box, execution, [time](const StandTree& tree) { return tree.lives_at(time); },
+        [time](const DeadWood& wood) { return wood.stands_at(time) || wood.lies_at(time); });
 }
 
 void compute_surroundings(const World& world, const WorldBox& box,

@@ -36,9 +36,10 @@ namespace sporeprint {
 [[nodiscard]] Block blocks_round(const World& world, const WorldBox& box,
                                  const ExecutionContext& execution);
 
-/// Returns what of a block is there at a moment: trees that live, trunks that stand or lie. What is there at other times
-/// is many times as much.
-[[nodiscard]] Block present_at(Block block, WorldTime time);
+/// Returns what of that is there at a moment: trees that live, trunks that stand or lie. What is there at other times is
+/// many times as much.
+[[nodiscard]] Block present_round(const World& world, const WorldBox& box, WorldTime time,
+                                  const ExecutionContext& execution);
 
 /// Returns the rectangle of a region or of a block.
 [[nodiscard]] WorldBox box_of(const Region& region);

@@ -21,6 +21,7 @@
 #include "core/math/elementary.h"
 #include "core/world/floor_image.h"
 #include "core/world/tree_growth.h"
+#include "core/world/world.h"
 
 namespace sporeprint {
 
@@ -170,9 +171,11 @@ class PlotScene {
         params.height = frame.height();
         Mesh slab = slab_mesh(params, frame.floor());
         without_images(slab);
-        const std::size_t ground = materials_.ground("plot_ground", [&] {
-            return floor_of(content_, cover, options_.texture_size, true, atlas_,
-                            execution_.parallel);
+        const std::size_t ground = materials_.ground("plot_ground", [&](ImageFormat format) {
+            const RawImages painted =
+                floor_of(content_, cover, options_.texture_size, true, atlas_, execution_.parallel);
+            throw_if_cancelled(execution_);
+            return encoded(painted, format, execution_.parallel);
         });
         add_single(std::move(slab), "plot_ground", ground, GlbRole::body);
     }
@@ -392,10 +395,13 @@ CoverField cover_of(const PlotContent& content, const Atlas& atlas, double step)
         at.has_needles[kind] = has_needles(litter[kind]);
     std::vector<LitterSource> sources;
     sources.reserve(content.trees.size());
+    const WorldBox field = grown(box_of(content), floor_margin + step);
     for (const StandTree& tree : content.trees) {
         if (!tree.lives_at(content.time) || tree.kind >= litter.size()) continue;
-        sources.push_back({metres(tree.at.x), metres(tree.at.y),
-                           crown_radius(height_at(tree, content.time)), tree.kind});
+        const double radius = crown_radius(height_at(tree, content.time));
+        // Leaves of farther trees would add nothing anywhere.
+        if (!contains(grown(field, crown_filling * radius + most_litter_drift), tree.at)) continue;
+        sources.push_back({metres(tree.at.x), metres(tree.at.y), radius, tree.kind});
     }
     const SineCosine wind = sine_cosine(content.wind_to);
     const auto at_place = [&](double x, double y) {

@@ -14,6 +14,7 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/params/canonical.h"
 #include "core/world/season.h"
 
 namespace sporeprint {
@@ -80,6 +81,27 @@ BodyLook look_of_body(const PlotContent& content, std::size_t species, double ag
     look.spec.params.share = ImageShare::species;
     if (look.is_lateral) look.spec.params.substrate = Substrate::none;
     return look;
+}
+
+std::size_t BodyShape::bytes() const {
+    // Position, normal, tangent and texture coordinates of each vertex, and about what is in the lists of an individual.
+    constexpr std::size_t of_vertex = 48, of_lists = 8'192;
+    return sizeof(BodyShape) + individual.parts.size() * sizeof(SpeciesShare) + of_lists +
+           mesh.positions.size() * of_vertex + mesh.indices.size() * sizeof(std::uint32_t);
+}
+
+std::shared_ptr<const BodyShape> body_shape(const MushroomSpec& spec, const Atlas& atlas,
+                                            const ExecutionContext& execution) {
+    // A draft of a library changes under its name.
+    std::string key = "tile body ";
+    for (const MixPart& part : spec.mix)
+        if (const AtlasEntry* const entry = atlas.find(part.id))
+            (key += part.id) += ' ' + std::to_string(entry->hash) + ' ';
+    return execution.caches.bodies(key + canonical_text(spec.params), [&] {
+        Individual individual = resolve(spec, atlas, execution.caches.morphs);
+        Mesh mesh = mushroom_mesh(spec, individual);
+        return std::make_shared<const BodyShape>(BodyShape{std::move(individual), std::move(mesh)});
+    });
 }
 
 PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,

@@ -1,7 +1,9 @@
 // The fruit bodies on a plot: each is shown by the nearest of a few individuals.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,22 @@ struct BodyLook {
 /// throws   InvalidInput (path "/species") for an unknown species
 [[nodiscard]] BodyLook look_of_body(const PlotContent& content, std::size_t species, double age,
                                     std::uint32_t seed, const Atlas& atlas);
+
+/// An individual and its mesh at one level of detail, which all tiles share that show it.
+struct BodyShape {
+    Individual individual;
+    Mesh mesh;
+
+    /// Returns about the size of all of it.
+    [[nodiscard]] std::size_t bytes() const;
+};
+
+/// Returns what shows bodies on tiles, cached in execution.caches or grown now.
+///
+/// spec  of a species of the atlas, by look_of_body()
+[[nodiscard]] std::shared_ptr<const BodyShape> body_shape(const MushroomSpec& spec,
+                                                          const Atlas& atlas,
+                                                          const ExecutionContext& execution);
 
 /// Returns the bodies that stand on a plot.
 ///

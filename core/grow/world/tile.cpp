@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <glm/common.hpp>
 #include <map>
 #include <optional>
@@ -14,7 +15,6 @@
 #include <vector>
 
 #include "core/grow/leaf.h"
-#include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
 #include "core/grow/tree.h"
@@ -26,9 +26,9 @@
 #include "core/grow/world/plot_places.h"
 #include "core/grow/world/tile_grass.h"
 #include "core/grow/world/tile_ground.h"
-#include "core/individual/resolve.h"
 #include "core/math/direction.h"
 #include "core/world/canopy_light.h"
+#include "core/world/floor_image.h"
 #include "core/world/season.h"
 #include "core/world/tree_growth.h"
 
@@ -42,6 +42,9 @@ constexpr std::uint64_t seeds_of_body = 2;
 
 /// Side of the images of wood at LOD 0, texels.
 constexpr int wood_texture_side = 512;
+
+/// Positions of trunks in files are multiples of this, metres: the bark is rougher, and 64 m fit into 16 bits.
+constexpr float trunk_step = 1.0F / 512.0F;
 
 /// Leaves that are meshes where leaves cover the ground, per m².
 constexpr double leaves_per_m2 = 20.0;
@@ -77,6 +80,32 @@ WorldPoint middle_of(const DeadWood& wood, WorldTime time) {
     const SineCosine way = sine_cosine(wood.direction);
     return point_at(metres(wood.at.x) + 0.5 * wood.length * way.cosine,
                     metres(wood.at.y) + 0.5 * wood.length * way.sine);
+}
+
+/// Tiles from this size on have so many crowns for each node of their cover that it is faster to draw each crown on the
+/// nodes than to look for the crowns of each node, metres. The bits of both are equal.
+constexpr double least_drawn_crowns = 64.0;
+
+/// Returns light_below() the crowns at the nodes of a field of cover.
+std::function<double(double, double)> light_on(const World& world, std::span<const Crown> crowns,
+                                               const CoverField& nodes) {
+    const PlaceLattice places{nodes.west * nodes.step, nodes.south * nodes.step, nodes.step,
+                              nodes.columns, nodes.rows};
+    std::vector<double> heights;
+    heights.reserve(static_cast<std::size_t>(nodes.columns) * static_cast<std::size_t>(nodes.rows));
+    for (int row = 0; row < nodes.rows; ++row)
+        for (int column = 0; column < nodes.columns; ++column)
+            heights.push_back(world
+                                  .place_at(point_at(places.west + column * places.step,
+                                                     places.south + row * places.step))
+                                  .height);
+    return [&world, places, light = canopy_light_on(places, heights, crowns, 1.0)](double x,
+                                                                                   double y) {
+        const auto column = static_cast<std::size_t>((x - places.west) / places.step + 0.5),
+                   row = static_cast<std::size_t>((y - places.south) / places.step + 0.5);
+        return world.site_at(point_at(x, y)).light *
+               light[row * static_cast<std::size_t>(places.columns) + column];
+    };
 }
 
 /// The scene of a tile with everything that it refers to.
@@ -140,6 +169,7 @@ class TileScene {
     GlbScene scene_;
     std::deque<Mesh> meshes_;
     std::deque<std::shared_ptr<const TreeMeshes>> trees_;
+    std::vector<std::shared_ptr<const BodyShape>> shapes_;  ///< of fruit bodies
     FileOptions file_;
     WorldMaterials materials_;
     std::uint64_t vertices_ = 0, triangles_ = 0;
@@ -162,15 +192,22 @@ class TileScene {
     void read_surroundings() {
         if (content_.size > coarsest_of_trees) return;
         const WorldTime time = request_.time;
-        around_ = present_at(blocks_round(world_, box_, execution_), time);
+        around_ = present_round(world_, box_, time, execution_);
         for (PlotContent* content : {&content_, &wide_}) {
             content->trees = around_.trees;
             content->dead_wood = around_.dead;
         }
         if (!shows_cover()) return;
-        canopy_.emplace(
-            crowns_in(world_, around_.trees, grown(box_, plot_margin + shade_reach), time));
-        content_.light = light_below(world_, *canopy_);
+        const std::vector<Crown> crowns =
+            crowns_in(world_, around_.trees, grown(box_, plot_margin + shade_reach), time);
+        if (content_.size >= least_drawn_crowns) {
+            content_.light =
+                light_on(world_, crowns,
+                         cover_lattice(box_, floor_margin, cover_step_of_tile(content_.size)));
+        } else {
+            canopy_.emplace(crowns);
+            content_.light = light_below(world_, *canopy_);
+        }
     }
 
     void add_layer(const PlotFrame& frame, const FloorHeights& floor) {
@@ -262,11 +299,25 @@ class TileScene {
         scene_.meshes.push_back({name, {{&own, material, {}}}, role});
     }
 
+    /// Lets the positions of the last mesh be integers of a step in files of the profile web. One that is too large for
+    /// that keeps its floats, as the whole file does.
+    void set_step(float step) {
+        if (!is_linked()) return;
+        constexpr float most = 32767.0F;
+        const Bounds box = bounds(meshes_.back());
+        const glm::vec3 reach = glm::max(glm::abs(box.min), glm::abs(box.max));
+        if (std::max({reach.x, reach.y, reach.z}) > most * step) return;
+        scene_.geometry = GlbGeometry::quantized;
+        scene_.meshes.back().step = step;
+    }
+
     void add_ground(const FloorHeights& floor, const PlotFrame& frame) {
         TileGround ground(world_, content_);
-        const std::size_t material =
-            materials_.ground("ground", [&] { return ground.images(atlas_, execution_.parallel); });
+        const std::size_t material = materials_.ground(
+            "ground", [&](ImageFormat) { return ground.files(atlas_, execution_.parallel); });
+        const auto step = static_cast<float>(step_of_tile(content_.size));
         add_single(ground.slab(floor, frame.height()), "ground", material, GlbRole::body);
+        set_step(step);
     }
 
     void add_trees(const PlotFrame& frame) {
@@ -306,7 +357,8 @@ class TileScene {
     }
 
     void add_floor(const PlotFrame& frame, const FloorHeights& floor) {
-        const CoverField cover = cover_of(content_, atlas_);
+        // Leaves need the finest cover; grass and the moss on trunks change less from place to place.
+        const CoverField cover = cover_of(content_, atlas_, cover_step_of_tile(content_.size));
         throw_if_cancelled(execution_);
         if (content_.size > finest_tile) add_trunks(cover, floor);
         if (content_.size > 2.0 * finest_tile) return;
@@ -327,10 +379,11 @@ class TileScene {
         PlotContent content = wide_;
         content.dead_wood = own;
         const PlotFrame frame(content, floor, origin_step);
-        const TrunkDetail detail = are_thick ? TrunkDetail{12, 40} : TrunkDetail{8, 16};
+        const TrunkDetail detail = are_thick ? TrunkDetail{10, 28} : TrunkDetail{6, 12};
         for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
             const std::size_t wood = materials_.wood({log.wood, wood_side({wood_texture_side}, 0)});
             add_single(std::move(log.mesh), log.lies ? "log" : "snag", wood, GlbRole::body, log.id);
+            set_step(trunk_step);
         }
     }
 
@@ -398,25 +451,22 @@ class TileScene {
         auto [spec, is_lateral] = look_of_body(content_, species, (part + 0.5) / parts_of_life,
                                                static_cast<std::uint32_t>(1 + seed), atlas_);
         spec.params.lod = lod_of_bodies(content_.size);
-        spec.params.textures = textures();
-        const Individual individual = resolve(spec, atlas_, execution_.caches.morphs);
-        meshes_.push_back(mushroom_mesh(spec, individual));
-        const Mesh& mesh = meshes_.back();
-        const Bounds box = bounds(mesh);
+        shapes_.push_back(body_shape(spec, atlas_, execution_));
+        const BodyShape& shape = *shapes_.back();
+        const Bounds box = bounds(shape.mesh);
         const glm::vec3 size = box.max - box.min;
         if (content_.size > 2.0 * finest_tile &&
-            static_cast<double>(std::max({size.x, size.y, size.z})) < least_body_from_afar) {
-            meshes_.pop_back();
+            static_cast<double>(std::max({size.x, size.y, size.z})) < least_body_from_afar)
             return;
-        }
-        const std::size_t skin = materials_.skin(spec, individual);
+        spec.params.textures = textures();
+        const std::size_t skin = materials_.skin(spec, shape.individual);
         std::vector<GlbTransform> places;
         std::vector<std::uint64_t> ids;
         for (const FruitBody* body : group) {
             places.push_back(place_of(*body, frame, is_lateral, trunks));
             ids.push_back(body->id);
         }
-        add_places(level_name(product_name(spec), spec.params.lod), {{&mesh, skin, {}}},
+        add_places(level_name(product_name(spec), spec.params.lod), {{&shape.mesh, skin, {}}},
                    is_linked() ? links_.mushroom(spec) : std::string(), places, ids, GlbRole::body);
     }
 };

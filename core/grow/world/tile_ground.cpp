@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/grow/world/plot_of_world.h"
@@ -16,15 +19,13 @@
 #include "core/math/random.h"
 #include "core/plant/leaf_colour.h"
 #include "core/plant/venation.h"
+#include "core/surface/codecs.h"
 #include "core/world/floor_image.h"
 #include "core/world/patches.h"
 
 namespace sporeprint {
 
 namespace {
-
-/// Nodes of the cover along each side of a tile that is not among the finest.
-constexpr double cover_nodes = 16.0;
 
 /// Places along each side of a tile at which the crowns are looked at.
 constexpr int canopy_nodes = 65;
@@ -132,6 +133,36 @@ void paint_crowns(RawImages& images, const World& world, const PlotContent& cont
         }
 }
 
+/// Returns the means of two by two texels, rounded.
+///
+/// side  of the image, even
+Bytes halved(std::span<const std::uint8_t> rgb, std::size_t side) {
+    const std::size_t half = side / 2, stride = 3 * side;
+    Bytes out(3 * half * half);
+    std::uint8_t* to = out.data();
+    for (std::size_t row = 0; row < half; ++row) {
+        const std::uint8_t* above = rgb.data() + 2 * row * stride;
+        const std::uint8_t* below = above + stride;
+        for (std::size_t column = 0; column < half; ++column, above += 6, below += 6)
+            for (std::size_t k = 0; k < 3; ++k)
+                *to++ = static_cast<std::uint8_t>(
+                    (above[k] + above[k + 3] + below[k] + below[k + 3] + 2) / 4);
+    }
+    return out;
+}
+
+/// Returns an image with fewer texels as a file.
+///
+/// from, to  sides, texels: powers of two
+Bytes jpeg_of(std::span<const std::uint8_t> rgb, int from, int to, int quality, Chroma chroma) {
+    Bytes smaller;
+    for (int side = from; side > to; side /= 2) {
+        smaller = halved(rgb, static_cast<std::size_t>(side));
+        rgb = smaller;
+    }
+    return jpeg(rgb, to, to, quality, chroma);
+}
+
 /// Returns a content whose light and litter are those below crowns that are not known one by one.
 ///
 /// canopy  must outlive the result, as the world must
@@ -155,7 +186,28 @@ PlotContent below_crowns(const World& world, PlotContent content, PatchCanopy& c
 
 }  // namespace
 
-int texels_of_tile(double side) { return side <= finest_tile ? finest_tile_texels : tile_texels; }
+std::uint64_t TileTexels::all() const {
+    std::uint64_t sum = 0;
+    for (const int side : {colour, normal, orm})
+        sum += static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side);
+    return sum;
+}
+
+TileTexels texels_of_tile(double side) {
+    if (side <= finest_tile) return {512, 256, 128};
+    if (side <= 8.0 * finest_tile) return {256, 128, 64};
+    return {256, 0, 0};
+}
+
+double cover_step_of_tile(double side) {
+    constexpr double nodes = 16.0;
+    return std::max(side / nodes, CoverField::finest_step);
+}
+
+double step_of_tile(double side) {
+    // Heights of origins are multiples of a sixteenth too.
+    return std::min(slab_step * std::max(1.0, side / finest_tile), 1.0 / 16.0);
+}
 
 TileGround::TileGround(const World& world, const PlotContent& content)
     : world_(world), content_(content), canopy_(world.stand, content.time) {}
@@ -164,8 +216,10 @@ Mesh TileGround::slab(const FloorHeights& floor, double height) {
     SlabParams params;
     params.box = box_of(content_);
     params.nodes = tile_nodes;
-    params.texture_side = texels_of_tile(content_.size);
+    params.texture_side = texels_of_tile(content_.size).colour;
     params.height = height;
+    params.step = step_of_tile(content_.size);
+    params.is_seen_from_above = true;
     // Walls hide the cracks between tiles of different sizes.
     params.depth = std::max(0.4, content_.size / 16.0);
     if (!shows_crowns(content_)) return slab_mesh(params, floor);
@@ -179,8 +233,8 @@ Mesh TileGround::slab(const FloorHeights& floor, double height) {
 
 RawImages TileGround::images(const Atlas& atlas, const Parallel& parallel) {
     const bool is_finest = content_.size <= finest_tile;
-    const double step = is_finest ? CoverField::finest_step : content_.size / cover_nodes;
-    const int side = texels_of_tile(content_.size);
+    const double step = cover_step_of_tile(content_.size);
+    const int side = texels_of_tile(content_.size).colour;
     if (!shows_crowns(content_))
         return floor_of(content_, cover_of(content_, atlas, step), side, is_finest, atlas,
                         parallel);
@@ -189,6 +243,27 @@ RawImages TileGround::images(const Atlas& atlas, const Parallel& parallel) {
         floor_of(below, cover_of(below, atlas, step), side, is_finest, atlas, parallel);
     paint_crowns(images, world_, content_, canopy_, atlas);
     return images;
+}
+
+ImageSet TileGround::files(const Atlas& atlas, const Parallel& parallel) {
+    const RawImages painted = images(atlas, parallel);
+    const TileTexels texels = texels_of_tile(content_.size);
+    ImageSet set;
+    std::vector<std::function<void()>> tasks;
+    const auto add = [&](ImageKind kind, int side, int quality, Chroma chroma) {
+        if (side == 0) return;
+        const auto i = static_cast<std::size_t>(kind);
+        tasks.emplace_back([&painted, &set, i, side, quality, chroma] {
+            set.files[i] = Slice(std::make_shared<const Bytes>(
+                jpeg_of(painted.rgb[i], painted.side, side, quality, chroma)));
+        });
+    };
+    // The image that takes longest first.
+    add(ImageKind::base_color, texels.colour, 84, Chroma::halved);
+    add(ImageKind::normal, texels.normal, 86, Chroma::full);
+    add(ImageKind::orm, texels.orm, 80, Chroma::halved);
+    parallel(tasks);
+    return set;
 }
 
 }  // namespace sporeprint

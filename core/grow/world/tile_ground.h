@@ -1,6 +1,8 @@
 // The ground of a tile: a slab and its images. From far away crowns are part of both.
 #pragma once
 
+#include <cstdint>
+
 #include "core/atlas/atlas.h"
 #include "core/grow/world/plot.h"
 #include "core/images.h"
@@ -11,12 +13,24 @@
 
 namespace sporeprint {
 
-/// Vertices along each side of the ground of a tile, and texels along each side of its images: of the finest tiles, and
-/// of all others.
-inline constexpr int tile_nodes = 33, finest_tile_texels = 512, tile_texels = 256;
+/// Vertices along each side of the ground of a tile.
+inline constexpr int tile_nodes = 33;
 
-/// Returns the number of texels along each side of the images of a tile.
-[[nodiscard]] int texels_of_tile(double side);
+/// Texels along each side of the images of a tile. Relief and gloss need fewer than colours, and from afar none: 0.
+struct TileTexels {
+    int colour = 0, normal = 0, orm = 0;
+    /// Returns the number of all of them.
+    [[nodiscard]] std::uint64_t all() const;
+    bool operator==(const TileTexels&) const = default;
+};
+[[nodiscard]] TileTexels texels_of_tile(double side);
+
+/// Returns the step of the cover of a tile, metres: the finest for leaves, else a sixteenth of its side.
+[[nodiscard]] double cover_step_of_tile(double side);
+
+/// Returns the step of the heights of a tile, metres. All tiles of a size have one, so that their borders meet, and 16
+/// bits reach as far up and down as the tile is wide.
+[[nodiscard]] double step_of_tile(double side);
 
 /// The ground of a tile. What is known of the crowns of its patches serves its slab and its images.
 class TileGround {
@@ -31,10 +45,15 @@ class TileGround {
     /// height  in the world of what is at y = 0
     [[nodiscard]] Mesh slab(const FloorHeights& floor, double height);
 
-    /// Paints the images.
+    /// Paints the images, all with the texels of the colours.
     ///
     /// throws  InvalidInput (path "/kinds") for an unknown tree; what `parallel` throws
     [[nodiscard]] RawImages images(const Atlas& atlas, const Parallel& parallel = in_turn);
+
+    /// Paints the images and encodes them as JPEG files of texels_of_tile().
+    ///
+    /// throws  as images()
+    [[nodiscard]] ImageSet files(const Atlas& atlas, const Parallel& parallel = in_turn);
 
   private:
     const World& world_;

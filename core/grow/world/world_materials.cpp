@@ -34,15 +34,11 @@ std::size_t WorldMaterials::plain(const std::string& name) {
 }
 
 std::size_t WorldMaterials::ground(const std::string& name,
-                                   const std::function<RawImages()>& paint) {
+                                   const std::function<ImageSet(ImageFormat)>& paint) {
     const Textures own = textures_ == Textures::none ? Textures::none : Textures::embedded;
     return named(name, [&](GlbMaterial& material) {
-        attach(material, own, nullptr, [&](ImageFormat format) {
-            execution_.observer(Step::paint);
-            const RawImages painted = paint();
-            throw_if_cancelled(execution_);
-            return std::make_shared<const ImageSet>(encoded(painted, format, execution_.parallel));
-        });
+        attach(material, own, nullptr,
+               [&](ImageFormat format) { return std::make_shared<const ImageSet>(paint(format)); });
     });
 }
 

@@ -44,7 +44,9 @@ class WorldMaterials {
     /// A colour of each vertex alone.
     std::size_t plain(const std::string& name);
     /// The ground, whose images are in the file wherever those of the others are.
-    std::size_t ground(const std::string& name, const std::function<RawImages()>& paint);
+    ///
+    /// paint  returns its images in a format
+    std::size_t ground(const std::string& name, const std::function<ImageSet(ImageFormat)>& paint);
     std::size_t bark(const TreeSpec& tree);
     /// Leaves on a tree or below it.
     ///

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <glm/common.hpp>
 #include <memory>
 #include <set>
 #include <span>
@@ -562,6 +563,66 @@ TEST(Glb, LinkedGeometryIsABufferOfItsOwn) {
             starts.insert(view.find("byteOffset")->as_number());
     EXPECT_EQ(*starts.begin(), 0.0);
     EXPECT_EQ(starts.size(), 3U) << "positions, normals and indices";
+}
+
+TEST(Glb, GeometryThatIsElsewhereIsDescribedAsIfItWereInTheFile) {
+    Mesh mesh = mesh_of(textured(order_of("amanita_muscaria", 0.6, 3, 1)));
+    mesh.tints.assign(mesh.positions.size(), glm::vec3(0.5F));
+    for (const bool is_swaying : {false, true}) {
+        if (is_swaying) mesh.sway.assign(mesh.positions.size(), Sway{.bend = 0.5F});
+        GlbScene scene = partly_linked(mesh, mesh);
+        scene.materials[0].image_urls = {"a.jpg", "b.jpg", "c.jpg"};
+        const Value linked = json_chunk(joined(glb(scene)));
+        for (GlbMesh& one : scene.meshes) one.geometry_uri.clear();
+        const Value whole = json_chunk(joined(glb(scene)));
+        EXPECT_EQ(dump(*linked.find("accessors")), dump(*whole.find("accessors")));
+        const Value::Array &views = linked.find("bufferViews")->items(),
+                           &same = whole.find("bufferViews")->items();
+        ASSERT_EQ(views.size(), same.size());
+        for (std::size_t i = 0; i < views.size(); ++i)
+            EXPECT_EQ(views[i].find("byteLength")->as_number(),
+                      same[i].find("byteLength")->as_number());
+    }
+}
+
+TEST(Glb, PositionsOnALatticeStayExactWhereTheyAreQuantised) {
+    constexpr float step = 1.0F / 4096.0F;
+    Mesh mesh = mesh_of(order_of("amanita_muscaria", 0.6, 3, 1));
+    for (glm::vec3& at : mesh.positions) at = glm::floor(at / step) * step;
+    GlbScene scene;
+    scene.geometry = GlbGeometry::quantized;
+    scene.materials.push_back({.name = "plain"});
+    scene.meshes.push_back({.name = "own", .primitives = {{&mesh, 0, {}}}, .step = step});
+    scene.nodes.push_back({.name = "own", .mesh = 0});
+    const Value json = json_chunk(joined(glb(scene)));
+    EXPECT_EQ(json.at_pointer("/nodes/0/scale/0")->as_number(), static_cast<double>(step));
+    const Bounds box = bounds(mesh);
+    for (const int axis : {0, 1, 2}) {
+        const std::string of = '/' + std::to_string(axis);
+        EXPECT_EQ(json.at_pointer("/accessors/0/min" + of)->as_number() * static_cast<double>(step),
+                  static_cast<double>(box.min[axis]));
+        EXPECT_EQ(json.at_pointer("/accessors/0/max" + of)->as_number() * static_cast<double>(step),
+                  static_cast<double>(box.max[axis]));
+    }
+    scene.meshes[0].step = 1e-6F;
+    EXPECT_THROW(static_cast<void>(glb(scene)), GenerationError) << "does not fit into 16 bits";
+}
+
+TEST(Glb, ABaseColourMayBeAlone) {
+    const Mesh mesh = mesh_of(textured(order_of("amanita_muscaria", 0.6, 3, 1)));
+    ImageSet images = *painted_images(
+        paint_spec_of(order_of("amanita_muscaria", 0.6, 3, 1), atlas()), {}, ImageFormat::jpg);
+    images.files[1] = images.files[2] = {};
+    GlbScene scene;
+    scene.materials.push_back({.name = "plain", .images = &images});
+    scene.meshes.push_back({"own", {{&mesh, 0, {}}}});
+    scene.nodes.push_back({.name = "own", .mesh = 0});
+    const ReadScene read = expect_scene(joined(glb(scene)));
+    EXPECT_EQ(read.images.size(), 1U);
+    EXPECT_EQ(read.materials[0].images, (std::array<int, 3>{0, -1, -1}));
+    EXPECT_EQ(read.meshes[0][0].attributes,
+              (std::vector<std::string>{"NORMAL", "POSITION", "TEXCOORD_0"}))
+        << "tangents are for normal maps";
 }
 
 TEST(Glb, GeometryThatCannotBeAFileOfItsOwnIsRefused) {

@@ -76,6 +76,20 @@ TEST(Slab, WithReliefIsValid) {
     expect_valid(slab_mesh(params, floor));
 }
 
+TEST(Slab, ThatIsSeenFromAboveIsClosedByFewerVertices) {
+    const Ground ground = sloping_ground(0.4, -0.3);
+    const FloorHeights floor(ground, 3, 0.3, {});
+    SlabParams params{{-4.0, -4.0, 4.0, 4.0}, 33, 512, 0.0, 0.4};
+    params.step = 1.0 / 256.0;
+    const Mesh whole = slab_mesh(params, floor);
+    params.is_seen_from_above = true;
+    const Mesh tile = slab_mesh(params, floor);
+    expect_valid(tile);
+    EXPECT_EQ(tile.positions.size(), 33U * 33U + 4U * 33U * 2U + 1U);
+    EXPECT_NEAR(volume(tile), volume(whole), 1e-3);
+    for (std::size_t i = 0; i < 33 * 33; ++i) EXPECT_EQ(tile.positions[i], whole.positions[i]);
+}
+
 TEST(Slab, OfANeighbourHasTheSameBorder) {
     const Ground ground = sloping_ground(0.07, 0.11);
     const TreeFoot foot{4.7, 1.0, 0.5};

@@ -114,6 +114,22 @@ TEST(WorldParts, OfTreesAreThoseOfAllBlocksThatMayShadeARectangle) {
     EXPECT_LT(blocks_round(world, {-5, -5, 5, 5}, shared()).trees.size(), around.trees.size());
 }
 
+TEST(WorldParts, OfAMomentAreThoseThatAreThereThen) {
+    const World world = world_with(beech());
+    const WorldBox box{-8, 0, 0, 8};
+    const WorldTime time = time_of(80, 270);
+    Block all = blocks_round(world, box, shared());
+    std::erase_if(all.trees, [&](const StandTree& tree) { return !tree.lives_at(time); });
+    std::erase_if(all.dead, [&](const DeadWood& wood) {
+        return !wood.stands_at(time) && !wood.lies_at(time);
+    });
+    const Block present = present_round(world, box, time, shared());
+    EXPECT_FALSE(present.trees.empty());
+    EXPECT_EQ(present.trees, all.trees);
+    EXPECT_FALSE(present.dead.empty());
+    EXPECT_EQ(present.dead, all.dead);
+}
+
 TEST(WorldParts, OfASmallRectangleAreThoseOfItsBlock) {
     const World world = world_with(beech());
     for (const int year : {0, 80}) {

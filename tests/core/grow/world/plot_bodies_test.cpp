@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <string>
 
 #include "core/grow/mushroom.h"
+#include "core/individual/resolve.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "tests/support/orders.h"
@@ -37,6 +41,33 @@ TEST(PlotBodies, AreShownByTheNearestOfAFew) {
         EXPECT_EQ(shown.mix.front().id, content.species[body.species]);
         EXPECT_NEAR(shown.params.age, body.age, 0.5 / 4.0 + 1e-9);
     }
+}
+
+TEST(PlotBodies, OfTilesAreGrownOnceForEachSpecies) {
+    const PlotContent content = small_wood().content();
+    ExecutionContext execution;
+    std::map<std::string, std::shared_ptr<const BodyShape>> known;
+    std::size_t grown = 0;
+    execution.caches.bodies = [&](const std::string& key, const auto& make) {
+        std::shared_ptr<const BodyShape>& value = known[key];
+        if (!value) {
+            value = make();
+            ++grown;
+        }
+        return value;
+    };
+    for (int again = 0; again < 2; ++again)
+        for (const std::uint32_t seed : {1U, 2U}) {
+            MushroomSpec spec = look_of_body(content, 0, 0.6, seed, atlas()).spec;
+            spec.params.lod = 2;
+            const auto shape = body_shape(spec, atlas(), execution);
+            const Mesh alone = mushroom_mesh(spec, resolve(spec, atlas()));
+            EXPECT_EQ(shape->mesh.positions, alone.positions);
+            EXPECT_EQ(shape->mesh.indices, alone.indices);
+            EXPECT_GT(shape->bytes(), 40 * alone.positions.size());
+        }
+    EXPECT_EQ(grown, 2U);
+    EXPECT_EQ(known.size(), 2U);
 }
 
 TEST(PlotBodies, StandOnTheFloor) {

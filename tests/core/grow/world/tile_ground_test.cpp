@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
 
 #include "core/grow/world/plot_of_world.h"
 #include "core/grow/world/tiling.h"
+#include "core/surface/codecs.h"
 #include "tests/support/meshes.h"
 #include "tests/support/worlds.h"
 
@@ -75,6 +79,66 @@ TEST(TileGround, FromAfarWoodsAreGreenInSummerAndBrownInWinter) {
     EXPECT_GT(green[1], 1.1 * green[0]);
     EXPECT_GT(brown[0], brown[1]);
     EXPECT_GT(brown[1], brown[2]);
+}
+
+TEST(TileGround, HasSmallerImagesOfReliefAndGlossAndNoneFromAfar) {
+    const World& world = land("mixed");
+    for (const double size : {8.0, 16.0, 64.0, 128.0}) {
+        PlotContent of = content(world, size);
+        of.centre = {};
+        TileGround ground(world, of);
+        const TileTexels texels = texels_of_tile(size);
+        const ImageSet files = ground.files(atlas());
+        const std::array sides{texels.colour, texels.normal, texels.orm};
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            if (sides[i] == 0) {
+                EXPECT_EQ(files.files[i].size, 0U);
+                continue;
+            }
+            const Slice& file = files.files[i];
+            const Picture picture = decoded_picture({file.data(), file.size}, "");
+            EXPECT_EQ(picture.width, sides[i]);
+            EXPECT_EQ(picture.height, sides[i]);
+        }
+        EXPECT_EQ(texels.normal > 0, size <= 64.0);
+        // Relief is a mean of four texels, so that it leans as the one that was painted.
+        if (texels.normal == 0) continue;
+        const RawImages painted = ground.images(atlas());
+        const Picture normals = decoded_picture({files.files[1].data(), files.files[1].size}, "");
+        double difference = 0.0;
+        for (int row = 0; row < normals.height; ++row)
+            for (int column = 0; column < normals.width; ++column)
+                for (int k = 0; k < 2; ++k) {
+                    const auto texel = [&](int x, int y) {
+                        return static_cast<double>(
+                            painted
+                                .rgb[1][static_cast<std::size_t>(3 * (y * painted.side + x) + k)]);
+                    };
+                    const int x = 2 * column, y = 2 * row;
+                    const double mean = 0.25 * (texel(x, y) + texel(x + 1, y) + texel(x, y + 1) +
+                                                texel(x + 1, y + 1));
+                    difference += std::abs(mean - normals.rgb[static_cast<std::size_t>(
+                                                      3 * (row * normals.width + column) + k)]);
+                }
+        EXPECT_LT(difference / (2.0 * normals.width * normals.height), 4.0) << size;
+    }
+}
+
+TEST(TileGround, HasHeightsOnALatticeThatFitsInto16Bits) {
+    const World& world = land("mixed");
+    for (const double size : {8.0, 32.0, 256.0}) {
+        PlotContent of = content(world, size);
+        of.centre = {};
+        const FloorHeights floor(*world.ground, of.seed, of.micro, {});
+        const double step = step_of_tile(size);
+        const Mesh slab = TileGround(world, of).slab(floor, 3.0);
+        for (std::size_t i = 0; i < 33 * 33; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double number = static_cast<double>(slab.positions[i][axis]) / step;
+                EXPECT_EQ(number, std::floor(number));
+            }
+        EXPECT_GE(32767.0 * step, 0.99 * size) << "as high as it is wide";
+    }
 }
 
 TEST(TileGround, LooksAlikeFromNearAndFromAfar) {

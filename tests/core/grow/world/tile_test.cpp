@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/grow/mushroom.h"
 #include "core/grow/tree.h"
@@ -110,7 +115,7 @@ TEST(Tile, GroundAtABorderIsThatOfTheNeighbourBitForBit) {
     for (const auto& [left, right] :
          {std::pair{TileIndex{5, 16, 16}, TileIndex{5, 17, 16}}, {{2, 1, 1}, {2, 2, 1}}}) {
         const auto border = [&](const TileIndex& index, float side) {
-            const Bytes file = joined(wood().tile(index, PlotLayer::ground).glb);
+            const Bytes file = joined(wood().tile(index, PlotLayer::ground, TileProfile::core).glb);
             const Value json = json_chunk(file);
             const Value::Array& origin =
                 json.find("nodes")->items().front().find("translation")->items();
@@ -130,6 +135,63 @@ TEST(Tile, GroundAtABorderIsThatOfTheNeighbourBitForBit) {
         for (std::size_t i = 0; i < 33; ++i)
             EXPECT_EQ(west[i], east[i]) << "vertex " << i << " of level " << left.level;
     }
+}
+
+/// Returns the positions of the first mesh of a file, with the scale and the translation of its node if it is quantised.
+std::vector<glm::dvec3> places_in(const Bytes& file, const Value& json) {
+    const auto number = [&](const std::string& pointer) {
+        const Value* const found = json.at_pointer(pointer);
+        EXPECT_NE(found, nullptr) << pointer;
+        return found ? found->as_number() : 0.0;
+    };
+    std::uint32_t of_json = 0;
+    std::memcpy(&of_json, file.data() + 12, sizeof of_json);
+    const auto count = static_cast<std::size_t>(number("/accessors/0/count"));
+    const std::uint8_t* from =
+        file.data() + 28 + of_json + static_cast<std::size_t>(number("/bufferViews/0/byteOffset"));
+    std::vector<glm::dvec3> places;
+    for (std::size_t i = 0; i < count; ++i, from += 8) {
+        std::array<std::int16_t, 3> at{};
+        std::memcpy(at.data(), from, sizeof at);
+        places.emplace_back(number("/nodes/1/scale/0") * at[0], number("/nodes/1/scale/1") * at[1],
+                            number("/nodes/1/scale/2") * at[2]);
+    }
+    return places;
+}
+
+TEST(Tile, GroundOfBothProfilesHasTheSameHeightsBitForBit) {
+    for (const TileIndex index :
+         {TileIndex{0, 0, 0}, {1, 1, 0}, {2, 1, 1}, {4, 7, 9}, {5, 16, 16}}) {
+        const Bytes web = joined(wood().tile(index, PlotLayer::ground).glb);
+        const Value json = json_chunk(web);
+        EXPECT_EQ(json.find("extensionsRequired")->items().front().as_string(),
+                  "KHR_mesh_quantization");
+        const std::vector<glm::dvec3> places = places_in(web, json);
+        const Bytes core = joined(wood().tile(index, PlotLayer::ground, TileProfile::core).glb);
+        const ReadScene scene = expect_scene(core);
+        const std::vector<glm::vec3>& same = scene.meshes[0][0].mesh.positions;
+        ASSERT_EQ(places.size(), same.size());
+        // The vertices of the top; those of walls are behind each other's.
+        for (std::size_t i = 0; i < 33 * 33; ++i)
+            EXPECT_EQ(places[i], glm::dvec3(same[i])) << "vertex " << i << " of " << index.level;
+    }
+}
+
+std::size_t kilobytes(const Grown& grown) {
+    std::size_t bytes = 0;
+    for (const Slice& slice : grown.glb) bytes += slice.size;
+    return bytes / 1000;
+}
+
+TEST(Tile, OfTheProfileWebKeepsItsBudgetOfBytes) {
+    EXPECT_LE(kilobytes(wood().tile({5, 16, 16}, PlotLayer::ground)), 220U);
+    for (const int level : {0, 1, 2, 3, 4})
+        EXPECT_LE(kilobytes(wood().tile({level, (1 << level) / 2, 0}, PlotLayer::ground)), 120U)
+            << level;
+    for (const TileIndex index : {TileIndex{5, 16, 16}, {4, 8, 8}, {3, 4, 4}, {1, 1, 1}})
+        EXPECT_LE(kilobytes(wood().tile(index, PlotLayer::trees)), 70U) << index.level;
+    for (const TileIndex index : {TileIndex{5, 16, 16}, {4, 8, 8}, {3, 4, 4}})
+        EXPECT_LE(kilobytes(wood().tile(index, PlotLayer::fungi)), 20U) << index.level;
 }
 
 TEST(Tile, OfTheProfileCoreContainsAllThatItShows) {
