@@ -260,7 +260,7 @@ ImageSet TileGround::files(const Atlas& atlas, const Parallel& parallel) {
     };
     // The image that takes longest first.
     add(ImageKind::base_color, texels.colour, 84, Chroma::halved);
-    add(ImageKind::normal, texels.normal, 86, Chroma::full);
+    add(ImageKind::normal, texels.normal, 91, Chroma::full);
     add(ImageKind::orm, texels.orm, 80, Chroma::halved);
     parallel(tasks);
     return set;

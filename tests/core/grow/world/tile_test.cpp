@@ -149,12 +149,13 @@ std::vector<glm::dvec3> places_in(const Bytes& file, const Value& json) {
     const auto count = static_cast<std::size_t>(number("/accessors/0/count"));
     const std::uint8_t* from =
         file.data() + 28 + of_json + static_cast<std::size_t>(number("/bufferViews/0/byteOffset"));
+    // Numbers of glTF are of single precision, in which the scale is the power of two that was written.
+    const auto scale = static_cast<float>(number("/nodes/1/scale/1"));
     std::vector<glm::dvec3> places;
     for (std::size_t i = 0; i < count; ++i, from += 8) {
         std::array<std::int16_t, 3> at{};
         std::memcpy(at.data(), from, sizeof at);
-        places.emplace_back(number("/nodes/1/scale/0") * at[0], number("/nodes/1/scale/1") * at[1],
-                            number("/nodes/1/scale/2") * at[2]);
+        places.push_back(static_cast<double>(scale) * glm::dvec3(at[0], at[1], at[2]));
     }
     return places;
 }
