@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/surface/paint.h"
 #include "tests/support/atlas.h"
 
 namespace sporeprint::grow_world_materials_test {
@@ -22,10 +23,10 @@ MaterialUrls named_urls() {
     return all;
 }
 
-RawImages grey_images() {
+ImageSet grey_images(ImageFormat format) {
     RawImages images{16, {}};
     for (Bytes& image : images.rgb) image.assign(3 * 16 * 16, 128);
-    return images;
+    return encoded(images, format, in_turn);
 }
 
 TEST(WorldMaterials, AreMadeOnceForEachName) {
