@@ -104,6 +104,10 @@ enum Purpose : std::uint32_t {
     floor_noise = 241,      ///< seeds of the noises of that floor and of its relief
     plot_pieces = 242,      ///< leaves and blades that lie or stand on a plot as meshes
     trunk_ends = 243,       ///< broken ends of dead trunks
+    surfels = 250,          ///< places and priorities of the surfels of an uploaded scene
+    scene_rays = 251,       ///< directions in which a surfel looks for the sky and the rain
+    spore_packets = 252,    ///< ways of spores through an uploaded scene
+    scene_mycelia = 253,    ///< mycelia on the surfels of a scene
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -208,6 +212,10 @@ enum Purpose : std::uint32_t {
         case floor_noise:
         case plot_pieces:
         case trunk_ends:
+        case surfels:
+        case scene_rays:
+        case spore_packets:
+        case scene_mycelia:
             return 1;
     }
     return 0;
