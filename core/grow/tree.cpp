@@ -204,8 +204,9 @@ LevelCount expected_count(const TreeParams& params, int lod, double all) {
                 {far.leaf_vertices, far.leaf_triangles}};
     }
     TreeCount bark = count_of_bark(params.look.shape, lod);
-    for (const TreeCount& foot :
-         {count_of_flare(params.look.shape, lod), count_of_foot_soil(params.look.shape, lod)}) {
+    const TreeCount soil =
+        params.foot_soil ? count_of_foot_soil(params.look.shape, lod) : TreeCount{};
+    for (const TreeCount& foot : {count_of_flare(params.look.shape, lod), soil}) {
         bark.vertices += foot.vertices;
         bark.triangles += foot.triangles;
     }
@@ -423,7 +424,7 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
         } else {
             bark = bark_of(tree, lod);
             flare_roots(bark, tree, flare, params.seed, lod);
-            add_foot_soil(bark, tree, flare, params.seed, lod);
+            if (params.foot_soil) add_foot_soil(bark, tree, flare, params.seed, lod);
             foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);
         }
         if (sway) bark.mesh.sway = sway_of(bark, *sway);

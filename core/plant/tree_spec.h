@@ -60,6 +60,7 @@ struct TreeParams {
     Textures textures = Textures::embedded;
     FileOptions file;
     LeafInstancing instancing = LeafInstancing::none;
+    bool foot_soil = true;
     TreeLook look;
 
     static constexpr ProfileFit profile_fit = {.solids = true, .wind = true};
@@ -101,6 +102,10 @@ struct TreeParams {
                    .doc = "How leaves are repeated: in one mesh of all of them, or by "
                           "EXT_mesh_gpu_instancing, a tenth of the bytes and of the memory. "
                           "Without wind."});
+        visit(&P::foot_soil,
+              Info{.name = "foot_soil",
+                   .doc = "Whether soil lies round its foot; without it, it is planted on ground "
+                          "that is there."});
         visit(&P::look, Info{.name = ""});
     }
     /// Refuses two parameters that choose the level of detail.

@@ -147,8 +147,11 @@ class TrunkBuilder {
             for (std::size_t k = first; k <= last; ++k) {
                 const double part = std::clamp(images(at_[ring]) - image, 0.0, 1.0);
                 const double v = wood_bark_end * (mirrored ? 1.0 - part : part);
+                // Images turn about the axis, so that their spots do not come again on the same side.
+                constexpr double turns = 0.16;
                 const double u =
-                    mirrored_place(2.0 * static_cast<double>(k) / static_cast<double>(sides_));
+                    mirrored_place(2.0 * static_cast<double>(k) / static_cast<double>(sides_) +
+                                   turns * images(at_[ring]));
                 const glm::dvec3& normal = normals_[index(ring, k)];
                 add(places_[index(ring, k)], normal, u, v, tint_of(ring, normal));
             }
