@@ -42,6 +42,8 @@ glm::dvec2 in_disc(int i, int count) {
     return {radius * cosine, radius * sine};
 }
 
+}  // namespace
+
 void add_lamp(std::vector<Light>& lights, const glm::dvec3& direction, double radius, int parts,
               const glm::vec3& strength) {
     const glm::dvec3 to_lamp = unit_or(direction, {0.0, 1.0, 0.0});
@@ -54,11 +56,8 @@ void add_lamp(std::vector<Light>& lights, const glm::dvec3& direction, double ra
     }
 }
 
-/// Adds the upper or the lower half of the surroundings, in equal solid angles.
-///
-/// light  from a direction
-template <class LightFrom>
-void add_half(std::vector<Light>& lights, int parts, double sign, const LightFrom& light) {
+void add_half(std::vector<Light>& lights, int parts, double sign,
+              const std::function<glm::vec3(const glm::vec3& direction)>& light) {
     for (int i = 0; i < parts; ++i) {
         const double height = (i + 0.5) / parts;
         const double level = std::sqrt(1.0 - height * height);
@@ -69,8 +68,6 @@ void add_half(std::vector<Light>& lights, int parts, double sign, const LightFro
         lights.push_back({direction, light(direction) * (2.0F / static_cast<float>(parts))});
     }
 }
-
-}  // namespace
 
 glm::vec3 surroundings(const glm::vec3& direction) {
     if (direction.y <= 0.0F) return ground;
@@ -85,10 +82,10 @@ glm::vec3 mirrored_surroundings(const glm::vec3& direction, float roughness) {
     return ground + (above - ground) * sky;
 }
 
-StudioLights studio_lights(const CameraAxes& axes, int detail) {
+PictureLights studio_lights(const CameraAxes& axes, int detail) {
     const auto share = [&](int parts) { return std::max(parts / detail, 2); };
     const glm::dvec3 right(axes.right), up(axes.up), forward(axes.forward);
-    StudioLights lights;
+    PictureLights lights;
     add_lamp(lights.lamps, -0.62 * right + 0.72 * up - 0.66 * forward, lamp_radius,
              share(lamp_parts), lamp_strength);
     add_lamp(lights.lamps, 0.75 * right + 0.45 * up + 0.75 * forward, back_lamp_radius,
@@ -102,31 +99,47 @@ StudioLights studio_lights(const CameraAxes& axes, int detail) {
     return lights;
 }
 
-ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side)
-    : direction_(direction),
-      side_(side),
-      depth_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1e30F) {
+ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side,
+                     const std::optional<ShadowFocus>& focus)
+    : direction_(direction) {
     right_ = glm::vec3(square_to(glm::dvec3(direction), {1.0, 0.01, 0.0}));
     up_ = glm::cross(direction, right_);
+    if (focus) {
+        levels_.push_back(level_round(focus->box, focus->side));
+        draw_focus(list, levels_.back());
+    }
+    levels_.push_back(level_round(list.box, side));
+    draw_whole(list, levels_.back());
+}
+
+ShadowMap::Level ShadowMap::level_round(const Bounds& box, int side) const {
+    Level level;
+    level.side = side;
+    level.depth.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1e30F);
     float right = -1e30F, bottom = -1e30F;
-    left_ = top_ = 1e30F;
+    level.left = level.top = 1e30F;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at((corner & 1) != 0 ? list.box.max.x : list.box.min.x,
-                           (corner & 2) != 0 ? list.box.max.y : list.box.min.y,
-                           (corner & 4) != 0 ? list.box.max.z : list.box.min.z);
+        const glm::vec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
+                           (corner & 2) != 0 ? box.max.y : box.min.y,
+                           (corner & 4) != 0 ? box.max.z : box.min.z);
         const float x = glm::dot(at, right_), y = -glm::dot(at, up_);
-        left_ = std::min(left_, x);
+        level.left = std::min(level.left, x);
         right = std::max(right, x);
-        top_ = std::min(top_, y);
+        level.top = std::min(level.top, y);
         bottom = std::max(bottom, y);
     }
-    const float extent = std::max({right - left_, bottom - top_, 1e-6F});
-    scale_ = static_cast<float>(side - 2) / extent;
+    const float extent = std::max({right - level.left, bottom - level.top, 1e-6F});
+    level.scale = static_cast<float>(side - 2) / extent;
+    return level;
+}
+
+void ShadowMap::draw_whole(const DrawList& list, Level& level) const {
+    const int side = level.side;
     std::vector<SnappedCorner> corners;
     // From the scene to texels and depths; its columns are images of the axes.
     const glm::mat3 to_image =
-        glm::transpose(glm::mat3(right_ * scale_, up_ * -scale_, direction_));
-    const glm::vec3 origin(1.0F - left_ * scale_, 1.0F - top_ * scale_, 0.0F);
+        glm::transpose(glm::mat3(right_ * level.scale, up_ * -level.scale, direction_));
+    const glm::vec3 origin(1.0F - level.left * level.scale, 1.0F - level.top * level.scale, 0.0F);
     for (const Draw& draw : list.draws) {
         const glm::mat3 linear = to_image * draw.placement.linear;
         const glm::vec3 moved = to_image * draw.placement.translation + origin;
@@ -141,51 +154,115 @@ ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side)
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
             rasterize(corners[indices[i]], corners[indices[i + 2]], corners[indices[i + 1]], side,
                       side, [&](int x, int y, float depth) {
-                          float& nearest = depth_[static_cast<std::size_t>(y * side + x)];
+                          float& nearest = level.depth[static_cast<std::size_t>(y * side + x)];
                           nearest = std::max(nearest, depth);
                       });
     }
 }
 
-float ShadowMap::depth_at(int x, int y) const {
-    if (x < 0 || y < 0 || x >= side_ || y >= side_) return -1e30F;
-    return depth_[static_cast<std::size_t>(y * side_ + x)];
+void ShadowMap::draw_focus(const DrawList& list, Level& level) const {
+    // The image lies in the middle of one that is twice as wide, so that triangles at its border keep their shape; what
+    // reaches beyond that is too large to be a leaf or a branch, and too far away to be seen.
+    const int side = level.side, margin = side / 2;
+    const auto wide = static_cast<float>(2 * side);
+    const glm::mat3 to_image =
+        glm::transpose(glm::mat3(right_ * level.scale, up_ * -level.scale, direction_));
+    const glm::vec3 origin(1.0F - level.left * level.scale + static_cast<float>(margin),
+                           1.0F - level.top * level.scale + static_cast<float>(margin), 0.0F);
+    const auto misses = [&](const glm::vec3& low, const glm::vec3& high) {
+        const auto first = static_cast<float>(margin), last = static_cast<float>(margin + side);
+        return high.x < first || high.y < first || low.x > last || low.y > last;
+    };
+    std::vector<glm::vec3> places;
+    for (const Draw& draw : list.draws) {
+        const glm::mat3 linear = to_image * draw.placement.linear;
+        const glm::vec3 moved = to_image * draw.placement.translation + origin;
+        places.resize(draw.mesh->positions.size());
+        glm::vec3 low(1e30F), high(-1e30F);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            places[i] = linear * draw.mesh->positions[i] + moved;
+            low = glm::min(low, places[i]);
+            high = glm::max(high, places[i]);
+        }
+        if (misses(low, high)) continue;
+        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+            const glm::vec3 &a = places[indices[i]], &b = places[indices[i + 1]],
+                            &c = places[indices[i + 2]];
+            const glm::vec3 least = glm::min(a, glm::min(b, c)), most = glm::max(a, glm::max(b, c));
+            if (misses(least, most) || least.x < 0.0F || least.y < 0.0F || most.x > wide ||
+                most.y > wide)
+                continue;
+            // The far side, as in draw_whole().
+            const auto corner = [](const glm::vec3& at) { return snapped({at.x, at.y, at.z}); };
+            rasterize(
+                corner(a), corner(c), corner(b), margin + side, margin + side,
+                [&](int x, int y, float depth) {
+                    if (x < margin) return;
+                    float& nearest =
+                        level.depth[static_cast<std::size_t>((y - margin) * side + x - margin)];
+                    nearest = std::max(nearest, depth);
+                },
+                margin);
+        }
+    }
 }
 
-ShadowMap::Place ShadowMap::place_of(const glm::vec3& point, const glm::vec3& normal) const {
-    const float off = 0.75F / scale_;
+float ShadowMap::Level::depth_at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= side || y >= side) return -1e30F;
+    return depth[static_cast<std::size_t>(y * side + x)];
+}
+
+ShadowMap::Place ShadowMap::place_of(const Level& level, const glm::vec3& point,
+                                     const glm::vec3& normal) const {
+    const float off = 0.75F / level.scale;
     const glm::vec3 at = point + normal * off;
-    return {(glm::dot(at, right_) - left_) * scale_ + 0.5F,
-            (-glm::dot(at, up_) - top_) * scale_ + 0.5F, glm::dot(at, direction_) + off};
+    return {(glm::dot(at, right_) - level.left) * level.scale + 0.5F,
+            (-glm::dot(at, up_) - level.top) * level.scale + 0.5F, glm::dot(at, direction_) + off};
+}
+
+const ShadowMap::Level* ShadowMap::level_of(const glm::vec3& point, const glm::vec3& normal,
+                                            Place& place) const {
+    for (const Level& level : levels_) {
+        place = place_of(level, point, normal);
+        const auto limit = static_cast<float>(level.side);
+        if (place.x >= -1.0F && place.y >= -1.0F && place.x < limit && place.y < limit)
+            return &level;
+    }
+    return nullptr;
 }
 
 float ShadowMap::light_at(const glm::vec3& point, const glm::vec3& normal) const {
-    const Place place = place_of(point, normal);
+    Place place;
+    const Level* const level = level_of(point, normal, place);
+    if (level == nullptr) return 1.0F;
     const float floor_x = std::floor(place.x), floor_y = std::floor(place.y);
     const float part_x = place.x - floor_x, part_y = place.y - floor_y;
-    const auto limit = static_cast<float>(side_);
-    if (!(floor_x >= -1.0F && floor_y >= -1.0F && floor_x < limit && floor_y < limit)) return 1.0F;
     const int column = static_cast<int>(floor_x), row = static_cast<int>(floor_y);
-    const auto lit = [&](int i, int j) { return depth_at(i, j) <= place.depth ? 1.0F : 0.0F; };
+    const auto lit = [&](int i, int j) {
+        return level->depth_at(i, j) <= place.depth ? 1.0F : 0.0F;
+    };
     const float above = lit(column, row) * (1.0F - part_x) + lit(column + 1, row) * part_x;
     const float below = lit(column, row + 1) * (1.0F - part_x) + lit(column + 1, row + 1) * part_x;
     return above * (1.0F - part_y) + below * part_y;
 }
 
 bool ShadowMap::reaches(const glm::vec3& point, const glm::vec3& normal) const {
-    const Place place = place_of(point, normal);
+    Place place;
+    const Level* const level = level_of(point, normal, place);
+    if (level == nullptr) return true;
     const float x = place.x + 0.5F, y = place.y + 0.5F;
-    const auto limit = static_cast<float>(side_);
-    if (!(x >= 0.0F && y >= 0.0F && x < limit && y < limit)) return true;
-    return depth_at(static_cast<int>(x), static_cast<int>(y)) <= place.depth;
+    if (!(x >= 0.0F && y >= 0.0F)) return true;
+    return level->depth_at(static_cast<int>(x), static_cast<int>(y)) <= place.depth;
 }
 
 std::vector<ShadowMap> shadow_maps(const DrawList& list, std::span<const Light> lights, int side,
-                                   const Parallel& parallel) {
+                                   const Parallel& parallel,
+                                   const std::optional<ShadowFocus>& focus) {
     std::vector<ShadowMap> maps(lights.size());
     std::vector<std::function<void()>> tasks;
     for (std::size_t i = 0; i < lights.size(); ++i)
-        tasks.emplace_back([&, i] { maps[i] = ShadowMap(list, lights[i].direction, side); });
+        tasks.emplace_back([&, i] { maps[i] = ShadowMap(list, lights[i].direction, side, focus); });
     parallel(tasks);
     return maps;
 }

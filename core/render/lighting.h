@@ -1,14 +1,17 @@
-// The light of a picture: a studio of many distant lights, and the shadows that a scene casts in it.
+// The light of a picture: many distant lights, those of a studio among them, and the shadows that a scene casts in it.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/images.h"
 #include "core/render/camera.h"
 #include "core/render/draw_list.h"
+#include "core/render/triangle_raster.h"
 
 namespace sporeprint::render {
 
@@ -20,16 +23,31 @@ struct Light {
 };
 
 /// The lights of a picture.
-struct StudioLights {
-    std::vector<Light> lamps;         ///< a soft one before the scene and a weak one behind it
+struct PictureLights {
+    std::vector<Light> lamps;         ///< whose shadows have edges: lamps of a studio, or the sun
     std::vector<Light> surroundings;  ///< the sky and the ground
 };
 
-/// Returns the lights of a picture; the lamps turn with the camera. Seen from below, the scene stands
-/// above a pale reflector in place of the dark ground.
+/// Adds the lights of a lamp that is seen as a disc.
+///
+/// direction  to it, of any length
+/// radius     half the angle under which it is seen, radians
+/// parts      number of its lights
+/// strength   of all of them
+void add_lamp(std::vector<Light>& lights, const glm::dvec3& direction, double radius, int parts,
+              const glm::vec3& strength);
+
+/// Adds the upper (sign 1) or the lower half (sign -1) of the surroundings, in equal solid angles.
+///
+/// light  from a direction, unit vector
+void add_half(std::vector<Light>& lights, int parts, double sign,
+              const std::function<glm::vec3(const glm::vec3& direction)>& light);
+
+/// Returns the lights of a studio: a soft lamp before the scene and a weak one behind it, which turn with the camera.
+/// Seen from below, the scene stands above a pale reflector in place of the dark ground.
 ///
 /// detail  1 for all of them, 2 for about half as many, and so on
-[[nodiscard]] StudioLights studio_lights(const CameraAxes& axes, int detail);
+[[nodiscard]] PictureLights studio_lights(const CameraAxes& axes, int detail);
 
 /// Returns the light that a smooth surface reflects from the surroundings, without the lamps.
 ///
@@ -42,13 +60,23 @@ struct StudioLights {
 /// direction  of the mirrored ray, unit
 [[nodiscard]] glm::vec3 mirrored_surroundings(const glm::vec3& direction, float roughness);
 
+/// The part of a large scene whose shadows are seen from near.
+struct ShadowFocus {
+    Bounds box;
+    int side = 0;  ///< of the maps of it, texels, at most largest_focus_side
+};
+inline constexpr int largest_focus_side = largest_raster_side / 2;
+
 /// The depths at which a scene stops the light of one direction.
 class ShadowMap {
   public:
     ShadowMap() = default;
 
-    /// cost  O(triangles + side^2)
-    ShadowMap(const DrawList& list, const glm::vec3& direction, int side);
+    /// side   of the map of the whole scene, texels
+    /// focus  has a map of its own
+    /// cost   O(triangles + side^2)
+    ShadowMap(const DrawList& list, const glm::vec3& direction, int side,
+              const std::optional<ShadowFocus>& focus = {});
 
     /// Returns how much of the light reaches a point, 0..1, interpolated between four depths.
     ///
@@ -59,28 +87,43 @@ class ShadowMap {
     [[nodiscard]] bool reaches(const glm::vec3& point, const glm::vec3& normal) const;
 
   private:
-    glm::vec3 right_{0.0F}, up_{0.0F}, direction_{0.0F};
-    float left_ = 0.0F, top_ = 0.0F, scale_ = 1.0F;  ///< of the image in the scene
-    int side_ = 0;
-    std::vector<float> depth_;  ///< distance towards the light, of the lowest surface that stops it
+    /// An image of depths.
+    struct Level {
+        float left = 0.0F, top = 0.0F, scale = 1.0F;  ///< of the image in the scene
+        int side = 0;
+        std::vector<float>
+            depth;  ///< distance towards the light, of the lowest surface that stops it
 
-    /// A point in the image: texels from the centre of the first one, and its depth.
+        [[nodiscard]] float depth_at(int x, int y) const;
+    };
+    /// A point in an image: texels from the centre of the first one, and its depth.
     struct Place {
         float x = 0.0F, y = 0.0F, depth = 0.0F;
     };
 
+    [[nodiscard]] Level level_round(const Bounds& box, int side) const;
+    void draw_whole(const DrawList& list, Level& level) const;
+    void draw_focus(const DrawList& list, Level& level) const;
+
     /// Returns the place of a point, moved off its surface and towards the light by three quarters
     /// of a texel.
-    [[nodiscard]] Place place_of(const glm::vec3& point, const glm::vec3& normal) const;
-    [[nodiscard]] float depth_at(int x, int y) const;
+    [[nodiscard]] Place place_of(const Level& level, const glm::vec3& point,
+                                 const glm::vec3& normal) const;
+    /// Returns the finest image that has a point, and its place in it; null if it is in none.
+    [[nodiscard]] const Level* level_of(const glm::vec3& point, const glm::vec3& normal,
+                                        Place& place) const;
+
+    glm::vec3 right_{0.0F}, up_{0.0F}, direction_{0.0F};
+    std::vector<Level> levels_;  ///< the finest first
 };
 
 /// Returns the shadow maps of lights. Each is a task of its own.
 ///
-/// side  of each map
+/// side, focus  as for each map
 [[nodiscard]] std::vector<ShadowMap> shadow_maps(const DrawList& list,
                                                  std::span<const Light> lights, int side,
-                                                 const Parallel& parallel);
+                                                 const Parallel& parallel,
+                                                 const std::optional<ShadowFocus>& focus = {});
 
 /// The light of the surroundings at a vertex.
 struct Ambient {

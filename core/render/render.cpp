@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -16,6 +17,7 @@
 #include "core/render/camera.h"
 #include "core/render/clipping.h"
 #include "core/render/close_up.h"
+#include "core/render/daylight.h"
 #include "core/render/draw_list.h"
 #include "core/render/ground_shadow.h"
 #include "core/render/lighting.h"
@@ -45,6 +47,9 @@ int surroundings_side(const PictureParams& params) {
     const int side = is_small(params) ? 80 : 128;
     return is_close_up(params.view) ? 3 * side : side;
 }
+
+/// Sides of the shadow maps outdoors, texels: of the sun and of the sky, of what is near and of the whole scene.
+constexpr int near_sun_side = 1024, sun_side = 768, near_sky_side = 256, sky_side = 160;
 
 /// Rows of pixels that are shaded by one task, and bands in which triangles are found.
 constexpr int band = 16, visible_bands = 4;
@@ -259,24 +264,26 @@ struct Pixel {
 /// Draws one view of a scene.
 class Drawing {
   public:
+    /// Draws in a studio.
+    ///
     /// ground  height of the plane that hides what is below it and shows the shadow, if there is one
     Drawing(const DrawList& list, const Camera& camera, const PictureParams& params,
             const std::optional<float>& ground, const Parallel& parallel)
-        : list_(list),
-          camera_(camera),
-          params_(params),
-          lights_(studio_lights(camera.axes, detail_of_lights(params, list.triangles()))),
-          lamp_shadows_(shadow_maps(list, lights_.lamps, lamp_side(params), parallel)),
-          shadows_(shadow_maps(list, lights_.surroundings, surroundings_side(params), parallel)),
-          ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
-          visible_(
-              visible(list, camera, params.width * samples, params.height * samples, parallel)),
-          scale_(glm::vec2(params.width, params.height) * 0.5F /
-                 glm::vec2(camera.tangent_x, camera.tangent_y)) {
+        : Drawing(list, camera, params, nullptr,
+                  studio_lights(camera.axes, detail_of_lights(params, list.triangles())),
+                  {lamp_side(params), {}}, {surroundings_side(params), {}}, parallel) {
         if (ground)
             ground_ = GroundShadow(list.box, *ground, {lights_.lamps, lamp_shadows_},
                                    {lights_.surroundings, shadows_}, parallel);
     }
+
+    /// Draws outdoors. The sky must outlive the drawing.
+    Drawing(const DrawList& list, const Camera& camera, const PictureParams& params, const Sky& sky,
+            const Outdoors& outdoors, const Parallel& parallel)
+        : Drawing(list, camera, params, &sky,
+                  sky.lights(detail_of_lights(params, list.triangles())),
+                  {sun_side, ShadowFocus{outdoors.near, near_sun_side}},
+                  {sky_side, ShadowFocus{outdoors.near, near_sky_side}}, parallel) {}
 
     static int detail_of_lights(const PictureParams& params, std::uint64_t triangles) {
         return triangles > 1'000'000 ? 4 : triangles > 250'000 || is_small(params) ? 2 : 1;
@@ -285,26 +292,111 @@ class Drawing {
     /// Draws into an image at a place.
     void draw(RgbaImage& image, int left, int top, const SrgbTable& srgb,
               const Parallel& parallel) const {
+        each_pixel(parallel, [&](int x, int y) {
+            const auto row =
+                static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width);
+            write(pixel(x, y), srgb, &image.rgba[(row + static_cast<std::size_t>(left + x)) * 4]);
+        });
+    }
+
+    /// Draws into a whole image, with the exposure that its light needs.
+    ///
+    /// shows_sky  behind the scene
+    void expose(RgbaImage& image, bool shows_sky, const SrgbTable& srgb,
+                const Parallel& parallel) const {
+        const auto index = [&](int x, int y) {
+            return static_cast<std::size_t>(y) * static_cast<std::size_t>(params_.width) +
+                   static_cast<std::size_t>(x);
+        };
+        std::vector<Pixel> pixels(index(0, params_.height));
+        each_pixel(parallel, [&](int x, int y) { pixels[index(x, y)] = pixel(x, y); });
+        const float exposure = exposure_of(pixels);
+        each_pixel(parallel, [&](int x, int y) {
+            Pixel& own = pixels[index(x, y)];
+            if (shows_sky) {
+                const glm::vec3 behind = sky_->at(direction_of(x, y));
+                own.light += behind * std::max(1.0F - own.surface, 0.0F);
+                own.surface = 1.0F;
+            }
+            own.light = softened(own.light * exposure);
+            write(own, srgb, &image.rgba[index(x, y) * 4]);
+        });
+    }
+
+  private:
+    /// The shadow maps of a kind of lights.
+    struct MapSides {
+        int whole = 0;
+        std::optional<ShadowFocus> focus;
+    };
+
+    Drawing(const DrawList& list, const Camera& camera, const PictureParams& params, const Sky* sky,
+            PictureLights lights, const MapSides& of_lamps, const MapSides& of_surroundings,
+            const Parallel& parallel)
+        : list_(list),
+          camera_(camera),
+          params_(params),
+          sky_(sky),
+          lights_(std::move(lights)),
+          lamp_shadows_(shadow_maps(list, lights_.lamps, of_lamps.whole, parallel, of_lamps.focus)),
+          shadows_(shadow_maps(list, lights_.surroundings, of_surroundings.whole, parallel,
+                               of_surroundings.focus)),
+          ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
+          visible_(
+              visible(list, camera, params.width * samples, params.height * samples, parallel)),
+          scale_(glm::vec2(params.width, params.height) * 0.5F /
+                 glm::vec2(camera.tangent_x, camera.tangent_y)) {}
+
+    /// Calls a function for each pixel, by rows.
+    template <class Call>
+    void each_pixel(const Parallel& parallel, const Call& call) const {
         std::vector<std::function<void()>> tasks;
         for (int first = 0; first < params_.height; first += band)
             tasks.emplace_back([&, first] {
                 const int last = std::min(first + band, params_.height);
                 for (int y = first; y < last; ++y)
-                    for (int x = 0; x < params_.width; ++x) {
-                        const auto row = static_cast<std::size_t>(top + y) *
-                                         static_cast<std::size_t>(image.width);
-                        write(pixel(x, y), srgb,
-                              &image.rgba[(row + static_cast<std::size_t>(left + x)) * 4]);
-                    }
+                    for (int x = 0; x < params_.width; ++x) call(x, y);
             });
         parallel(tasks);
     }
 
-  private:
+    /// Returns the factor that makes the geometric mean of the light of surfaces that of a photograph.
+    [[nodiscard]] static float exposure_of(const std::vector<Pixel>& pixels) {
+        constexpr double wanted = 0.17, least = 0.3, most = 8.0, darkest = 1e-3;
+        double sum = 0.0, weight = 0.0;
+        for (const Pixel& pixel : pixels) {
+            if (pixel.surface <= 0.0F) continue;
+            const glm::dvec3 light(pixel.light / pixel.surface);
+            const double luminance = 0.2126 * light.x + 0.7152 * light.y + 0.0722 * light.z;
+            sum += logarithm(std::max(luminance, darkest));
+            weight += 1.0;
+        }
+        if (weight <= 0.0) return 1.0F;
+        return static_cast<float>(std::clamp(wanted / exponential(sum / weight), least, most));
+    }
+
+    /// Returns light with less contrast: shade outdoors is darker than pictures can show, and eyes adapt to it.
+    [[nodiscard]] static glm::vec3 softened(const glm::vec3& light) {
+        constexpr double middle = 0.18, power = -0.2, darkest = 1e-3;
+        const double luminance = 0.2126 * static_cast<double>(light.x) +
+                                 0.7152 * static_cast<double>(light.y) +
+                                 0.0722 * static_cast<double>(light.z);
+        return light * static_cast<float>(
+                           exponential(power * logarithm(std::max(luminance, darkest) / middle)));
+    }
+
+    /// Returns the direction through the middle of a pixel, a unit vector in the scene.
+    [[nodiscard]] glm::vec3 direction_of(int x, int y) const {
+        const glm::vec2 middle = (glm::vec2(x, y) + 0.5F) * static_cast<float>(samples);
+        const glm::vec3 direction = camera_.in_scene(ray(middle));
+        return direction * (1.0F / std::sqrt(glm::dot(direction, direction)));
+    }
+
     const DrawList& list_;
     const Camera& camera_;
     const PictureParams& params_;
-    StudioLights lights_;
+    const Sky* sky_;  ///< null in a studio
+    PictureLights lights_;
     std::vector<ShadowMap> lamp_shadows_, shadows_;
     std::vector<std::vector<Ambient>> ambient_;
     SeenScene visible_;
@@ -333,9 +425,12 @@ class Drawing {
         if (!ground_.empty() && facet.point(weights).y < ground_.level()) return std::nullopt;
         const glm::vec3 direction = camera_.in_scene(ray);
         const float length = std::sqrt(glm::dot(direction, direction));
-        return reflected(facet.surface(weights, direction * (-1.0F / length),
-                                       ambient_[facet.draw_index()], scale_),
-                         facet.look(), lamps, group);
+        const SurfacePoint point = facet.surface(weights, direction * (-1.0F / length),
+                                                 ambient_[facet.draw_index()], scale_);
+        const glm::vec3 light = reflected(point, facet.look(), lamps, group);
+        if (sky_ == nullptr) return light;
+        return sky_->through_air(light, direction * (1.0F / length),
+                                 glm::distance(point.at, camera_.position));
     }
 
     [[nodiscard]] Facet facet_at(std::size_t sample) const { return {list_, visible_, sample}; }
@@ -375,7 +470,7 @@ class Drawing {
             }
         };
         if (is_one) {
-            add(facet_at(at[0]), middle, {lights_.lamps, lamp_shadows_, 1}, 0, 1.0F);
+            add(facet_at(at[0]), middle, {lights_.lamps, lamp_shadows_, 1, sky_}, 0, 1.0F);
             return sum;
         }
 
@@ -404,7 +499,7 @@ class Drawing {
             patches[of]->samples += 1.0F;
         }
         // Patches share the lamps, so that a pixel at an edge costs little more than others.
-        const Lamps lamps{lights_.lamps, lamp_shadows_, count};
+        const Lamps lamps{lights_.lamps, lamp_shadows_, count, sky_};
         for (std::size_t i = 0; i < count; ++i) {
             const Patch& patch = *patches[i];
             add(patch.facet, ray(patch.sum * (1.0F / patch.samples)), lamps, i,
@@ -525,7 +620,7 @@ Camera standing_camera(const StandingCamera& standing, double aspect) {
 }  // namespace render
 
 std::size_t pictured_lights(const PictureParams& params, std::uint64_t triangles) {
-    const render::StudioLights lights =
+    const render::PictureLights lights =
         render::studio_lights({}, render::Drawing::detail_of_lights(params, triangles));
     return lights.lamps.size() + lights.surroundings.size();
 }
@@ -560,8 +655,10 @@ Bytes rendered_png(const GlbScene& scene, const PictureParams& params, const Par
 }
 
 RgbaImage rendered_from(const StandingCamera& camera, const GlbScene& scene,
-                        const PictureParams& params, const Parallel& parallel) {
+                        const PictureParams& params, const Outdoors& outdoors,
+                        const Parallel& parallel) {
     require_valid(params);
+    const render::Sky sky(outdoors.light);
     // What is near shows a part of each image, at its full size.
     const render::DrawList list = render::draw_list(scene, parallel, largest_upload_side);
     render::refuse_over_triangles(list);
@@ -570,8 +667,8 @@ RgbaImage rendered_from(const StandingCamera& camera, const GlbScene& scene,
     RgbaImage image{params.width, params.height, {}};
     image.rgba.resize(static_cast<std::size_t>(image.width) *
                       static_cast<std::size_t>(image.height) * 4);
-    render::Drawing(list, from, params, std::nullopt, parallel)
-        .draw(image, 0, 0, srgb_table(), parallel);
+    render::Drawing(list, from, params, sky, outdoors, parallel)
+        .expose(image, outdoors.shows_sky, srgb_table(), parallel);
     return image;
 }
 

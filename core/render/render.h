@@ -8,6 +8,8 @@
 #include "core/bytes.h"
 #include "core/gltf/glb.h"
 #include "core/images.h"
+#include "core/mesh/mesh.h"
+#include "core/render/daylight.h"
 #include "core/render/picture_params.h"
 
 namespace sporeprint {
@@ -52,13 +54,21 @@ struct StandingCamera {
     double angle_deg = 70.0;  ///< of view, across the picture, 1..150
 };
 
-/// Draws what a camera in a scene sees; what is nearer than 5 cm is left out. Nothing hides what is below the ground.
+/// What is round a scene outdoors.
+struct Outdoors {
+    Daylight light;
+    Bounds near;            ///< the part of the scene whose shadows are seen from near
+    bool shows_sky = true;  ///< behind the scene, in place of the background of the parameters
+};
+
+/// Draws what a camera in a scene sees outdoors; what is nearer than 5 cm is left out. Nothing hides what is below the
+/// ground. The picture is as bright in the mean, whatever the light, as a camera's exposure would make it.
 ///
 /// params   size and background count
 /// returns  the picture
-/// throws   as rendered(); InvalidInput (path "/angle_deg") for other angles
+/// throws   as rendered(); InvalidInput (path "/angle_deg") for other angles, and for daylight that cannot be
 [[nodiscard]] RgbaImage rendered_from(const StandingCamera& camera, const GlbScene& scene,
-                                      const PictureParams& params,
+                                      const PictureParams& params, const Outdoors& outdoors,
                                       const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

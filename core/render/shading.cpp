@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/elementary.h"
+#include "core/render/daylight.h"
 
 namespace sporeprint::render {
 
@@ -159,8 +160,10 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
     }
     const float arriving_share =
         around.y / std::max(point.ambient.arriving.y + point.ambient.stopped.y, 1e-3F);
-    const glm::vec3 mirror_image = mirrored_surroundings(
-        normal * (2.0F * glm::dot(normal, point.to_camera)) - point.to_camera, point.roughness);
+    const glm::vec3 mirrored_ray =
+        normal * (2.0F * glm::dot(normal, point.to_camera)) - point.to_camera;
+    const glm::vec3 mirror_image = lamps.sky ? lamps.sky->mirrored(mirrored_ray, point.roughness)
+                                             : mirrored_surroundings(mirrored_ray, point.roughness);
     const float mirror = mirrored(seen, point.roughness) + coat_share;
     const glm::vec3 light = point.base_color * matt * (1.0F - coat_share) + shine +
                             mirror_image * (mirror * saturated(arriving_share)) +

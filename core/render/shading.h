@@ -24,11 +24,14 @@ struct SurfacePoint {
     glm::vec3 tint{1.0F};       ///< of that light
 };
 
+class Sky;
+
 /// Lamps with their shadows. With several groups, each lamp is in one of them.
 struct Lamps {
     std::span<const Light> lights;
     std::span<const ShadowMap> shadows;
     std::size_t groups = 1;
+    const Sky* sky = nullptr;  ///< what mirrors show outdoors; null in a studio
 };
 
 /// Returns the light, linear, that a point sends to the camera: that of the surroundings, and that

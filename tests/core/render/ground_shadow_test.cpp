@@ -14,7 +14,7 @@ struct Shadow {
     Mesh mesh = ball(0.05F, {0.0F, 0.05F, 0.0F});
     GlbScene scene = scene_of(mesh);
     DrawList list = draw_list(scene, in_turn);
-    StudioLights lights = studio_lights(camera_axes(30, 18), 1);
+    PictureLights lights = studio_lights(camera_axes(30, 18), 1);
     std::vector<ShadowMap> lamps = shadow_maps(list, lights.lamps, 128, in_turn),
                            sky = shadow_maps(list, lights.surroundings, 128, in_turn);
     GroundShadow ground{list.box, 0.0F, {lights.lamps, lamps}, {lights.surroundings, sky}, in_turn};

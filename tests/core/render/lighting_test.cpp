@@ -46,7 +46,7 @@ TEST(Lighting, FewerLightsAreAsBright) {
     const CameraAxes axes = camera_axes(0, 0);
     const auto total = [&](int detail) {
         glm::vec3 sum(0.0F);
-        const StudioLights lights = studio_lights(axes, detail);
+        const PictureLights lights = studio_lights(axes, detail);
         for (const Light& light : lights.lamps) sum += light.strength;
         for (const Light& light : lights.surroundings) sum += light.strength;
         return sum;
@@ -131,6 +131,29 @@ TEST(Lighting, OnlyTranslucentSurfacesAskForLightFromBehind) {
             EXPECT_GT(thin[i].behind.x, 0.95F * behind.x);
         }
     }
+}
+
+TEST(Lighting, AFocusOnTheWholeSceneShadesAsTheSceneDoes) {
+    const Mesh mesh = ball(0.07F, {0.1F, 0.2F, 0.3F});
+    const GlbScene scene = scene_of(mesh);
+    const DrawList list = draw_list(scene, in_turn);
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.2F));
+    const ShadowMap plain(list, direction, 128);
+    const ShadowMap focused(list, direction, 16, ShadowFocus{list.box, 128});
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        EXPECT_EQ(plain.light_at(mesh.positions[i], mesh.normals[i]),
+                  focused.light_at(mesh.positions[i], mesh.normals[i]));
+}
+
+TEST(Lighting, WhatIsBesideTheFocusIsShadedByTheMapOfTheWhole) {
+    const Mesh mesh = ball(0.07F, {0.1F, 0.2F, 0.3F});
+    const GlbScene scene = scene_of(mesh);
+    const DrawList list = draw_list(scene, in_turn);
+    const glm::vec3 up(0.0F, 1.0F, 0.0F);
+    // The focus lies beside the ball, whose shadow falls on a point below it.
+    const ShadowMap map(list, up, 64, ShadowFocus{{{1.0F, 0.0F, 1.0F}, {1.5F, 0.5F, 1.5F}}, 64});
+    EXPECT_EQ(map.light_at({0.1F, 0.0F, 0.3F}, {}), 0.0F);
+    EXPECT_EQ(map.light_at({1.2F, 0.0F, 1.2F}, {}), 1.0F);
 }
 
 }  // namespace
