@@ -1,0 +1,32 @@
+// Snow on the ground of a world, from its weather.
+#pragma once
+
+#include <cstdint>
+
+#include "core/images.h"
+#include "core/world/ground.h"
+#include "core/world/world_params.h"
+
+namespace sporeprint {
+
+/// Returns the snow that lies on a day, as water, mm. What falls near freezing is partly snow; snow melts by so many
+/// millimetres for each degree and day. The water of soils does not depend on it.
+///
+/// seed, year, day  as for weather_of(); the snow of an autumn lies in the year after it too
+/// source           melt by degree days [Hock2003]
+[[nodiscard]] double snow_on(const ClimateParams& climate, std::uint32_t seed, int year, int day);
+
+/// Returns the share of the ground that snow covers, 0..1.
+///
+/// water  that lies as snow, mm
+[[nodiscard]] double snow_cover(double water);
+
+/// Covers a floor with snow: hollows last, so that leaves and tufts look out of a little of it. Texels at one place of
+/// the world are covered alike in all images whose texels are of one size.
+///
+/// box    of the images, whose first row is the northern one
+/// cover  share of the ground, 0..1
+void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_t seed,
+              const Parallel& parallel = in_turn);
+
+}  // namespace sporeprint
