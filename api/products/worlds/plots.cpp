@@ -17,6 +17,7 @@
 #include "api/products/worlds/worlds.h"
 #include "core/grow/world/plot_of_world.h"
 #include "core/grow/world/plot_places.h"
+#include "core/grow/world/plot_scenery.h"
 #include "core/grow/world/plot_view.h"
 #include "core/params/query.h"
 #include "core/params/schema.h"
@@ -102,7 +103,7 @@ struct PlotPictureParams {
     int width = 960, height = 640;
     PlotView view = PlotView::standing;
     double turn_deg = 0.0;
-    Background background = Background::grey;
+    PlotBackground background = PlotBackground::sky;
 
     static constexpr void fields(auto visit) {
         using P = PlotPictureParams;
@@ -123,17 +124,22 @@ struct PlotPictureParams {
                                .min = 64,
                                .max = 1024,
                                .doc = "Height of the picture."});
-        visit(&P::view,
-              Info{.name = "view",
-                   .doc = "As somebody sees it who stands at its edge or kneels there, aslant from "
-                          "above, or from straight above it, below the crowns of large trees."});
+        visit(
+            &P::view,
+            Info{.name = "view",
+                 .doc = "As somebody sees it who stands at its edge, or who kneels there or before "
+                        "the most fruit bodies that stand together; aslant from above, or from "
+                        "straight above it, below the crowns of large trees."});
         visit(&P::turn_deg,
               Info{.name = "turn_deg",
                    .unit = "deg",
                    .min = -180,
                    .max = 180,
                    .doc = "From where the camera looks: 0 from the south, 90 from the east."});
-        visit(&P::background, info_of<PictureParams>("background"));
+        visit(&P::background,
+              Info{.name = "background",
+                   .doc = "The sky of the day, for standing and kneeling with the world round the "
+                          "plot; or the plot alone before nothing or a colour."});
     }
     bool operator==(const PlotPictureParams&) const = default;
 
@@ -153,8 +159,29 @@ struct PlotPictureParams {
         PictureParams params;
         params.width = width;
         params.height = height;
-        params.background = background;
+        params.background = behind();
         return params;
+    }
+    /// Returns whether the world round the plot is part of the picture.
+    [[nodiscard]] bool shows_world() const {
+        return background == PlotBackground::sky &&
+               (view == PlotView::standing || view == PlotView::kneeling);
+    }
+
+  private:
+    [[nodiscard]] Background behind() const {
+        switch (background) {
+            case PlotBackground::white:
+                return Background::white;
+            case PlotBackground::grey:
+                return Background::grey;
+            case PlotBackground::black:
+                return Background::black;
+            case PlotBackground::sky:
+            case PlotBackground::transparent:
+                break;
+        }
+        return Background::transparent;
     }
 };
 static_assert(well_described<PlotPictureParams>());
@@ -352,6 +379,16 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
         .set("links", links_of(context, request, world));
 }
 
+Body png_of(const RgbaImage& image) {
+    return {Slice(std::make_shared<const Bytes>(png(image.rgba, image.width, image.height)))};
+}
+
+/// Returns the part of a plot whose shadows are seen from near.
+Bounds near_box(double size) {
+    const auto half = static_cast<float>(0.6 * size);
+    return {{-half, -2.0F, -half}, {half, 2.5F, half}};
+}
+
 Plan plan_file(RouteCall& call, Product file) {
     Context& context = call.context;
     const auto request = std::make_shared<const PlotRequest>(read_plot(call, file, call.errors));
@@ -380,14 +417,18 @@ Plan plan_file(RouteCall& call, Product file) {
                 const PlotPictureParams& picture = request->picture;
                 const StandingCamera camera =
                     camera_of(plot->content, picture.view, picture.turn_deg);
+                if (picture.shows_world())
+                    return png_of(scenery_of(*plot, options_of(*request), camera, picture.picture(),
+                                             *context.atlas, execution));
                 extras.write = [&, camera](const GlbScene& scene,
                                            const Parallel& parallel) -> Body {
                     execution.observer(Step::draw);
                     throw_if_cancelled(execution);
-                    const RgbaImage image =
-                        rendered_from(camera, scene, request->picture.picture(), parallel);
-                    return {Slice(
-                        std::make_shared<const Bytes>(png(image.rgba, image.width, image.height)))};
+                    return png_of(rendered_from(
+                        camera, scene, picture.picture(),
+                        {daylight_on(*plot->world, plot->content.time), near_box(params.size),
+                         picture.background == PlotBackground::sky},
+                        parallel));
                 };
             }
             return grow_plot(plot->content, options_of(*request), *context.atlas, extras, execution)

@@ -14,12 +14,15 @@
 #include "core/grow/painting.h"
 #include "core/grow/translucency.h"
 #include "core/grow/wood.h"
+#include "core/grow/world/flowers.h"
 #include "core/grow/world/plot_bodies.h"
 #include "core/grow/world/plot_parts.h"
+#include "core/grow/world/tile_grass.h"
 #include "core/grow/world/world_materials.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/world/floor_image.h"
+#include "core/world/snow.h"
 #include "core/world/tree_growth.h"
 #include "core/world/world.h"
 
@@ -130,6 +133,7 @@ class PlotScene {
         if (const double per_m2 = std::min(options_.litter, most_per_m2); per_m2 > 0.0)
             leaves_ = leaves_of(content_, frame, cover, per_m2, atlas_);
         add_leaves();
+        add_flowers(frame, cover);
         const std::uint64_t left = most_plot_triangles - std::min(most_plot_triangles, triangles_);
         add_grass(grass_of(content_, frame, cover, std::min(most_of_grass, left)));
     }
@@ -246,6 +250,17 @@ class PlotScene {
             } else {
                 add_single(own.merged(), name, leaves, GlbRole::foliage);
             }
+        }
+    }
+
+    void add_flowers(const PlotFrame& frame, const CoverField& cover) {
+        for (const FlowerKind& kind : flower_kinds()) {
+            PlotLeaves own;
+            own.places = flowers_on(kind, content_, frame, cover, rim_of_leaves);
+            if (own.places.empty()) continue;
+            own.one = flower_mesh(kind);
+            add_single(own.merged(), std::string(kind.name), materials_.plain("flowers"),
+                       GlbRole::foliage);
         }
     }
 
@@ -426,14 +441,17 @@ RawImages floor_of(const PlotContent& content, const CoverField& cover, int side
     paint.kinds = litter;
     paint.cover = &cover;
     paint.pieces = pieces;
-    return floor_images(paint, parallel);
+    RawImages images = floor_images(paint, parallel);
+    add_snow(images, paint.box, content.snow, content.seed, parallel);
+    return images;
 }
 
 LeafState leaves_on(int day) {
-    constexpr int first_leaves = 110, last_leaves = 318;
+    // Of beeches in Central Europe: leaves unfold at the end of April, half of them have turned in mid-October.
+    constexpr int first_leaves = 112, last_leaves = 316;
     LeafState state;
     state.bare = day < first_leaves || day > last_leaves;
-    const double turned = 0.7 * smooth_step(262.0, 318.0, day);
+    const double turned = 0.9 * smooth_step(258.0, 312.0, day);
     state.autumn = state.bare ? 0.0 : std::floor(turned * 16.0 + 0.5) / 16.0;
     return state;
 }

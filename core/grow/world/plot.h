@@ -37,6 +37,7 @@ struct PlotContent {
     double soil_water = 80.0;  ///< of the day, mm (WeatherDay)
     /// Mean of the autumns, mm: on which the moss depends, and other cover that does not change with one rain.
     double lasting_water = 80.0;
+    double snow = 0.0;     ///< share of the ground that snow covers, 0..1
     double acidity = 0.5;  ///< of the soil, 0..1
     double micro = 0.06;   ///< amplitude of the finest relief, metres
     double wind_to = 0.0;  ///< direction to which the wind blows, radians from east to north

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/world/leaf_stamp.h"
+#include "core/world/snow.h"
 #include "core/world/tree_growth.h"
 #include "core/world/world_habitat.h"
 
@@ -68,6 +69,8 @@ PlotContent content_of(const World& world, const PlotPlace& place, WorldTime tim
     content.species = world.species_ids;
     content.soil_water = soil_water_at(world.params, time);
     content.lasting_water = world.autumn_water;
+    content.snow = snow_cover(snow_on(world.params.climate, world.params.seed,
+                                      static_cast<int>(time / ticks_of_year), day_of_year(time)));
     content.acidity = world.params.soil.acidity;
     content.micro = world.params.terrain.micro;
     content.wind_to = world.downwind();

@@ -17,7 +17,6 @@
 #include "core/math/random.h"
 #include "core/params/canonical.h"
 #include "core/plant/trunk_piece.h"
-#include "core/world/grass_season.h"
 #include "core/world/leaf_stamp.h"
 #include "core/world/tree_growth.h"
 
@@ -28,12 +27,8 @@ namespace {
 /// Side of the images of bark and leaves at LOD 0; it halves with every level.
 constexpr int tree_texture_side = 2048;
 
-/// The sides of cells in which leaves and tufts of grass lie, metres.
-constexpr double leaf_cell = 1.0, tuft_cell = 0.5;
-
-/// Tufts of grass in a cell where grass covers it, blades of a tuft, and triangles of a blade.
-constexpr int tufts_of_cell = 12, blades_of_tuft = 6;
-constexpr std::uint64_t triangles_of_blade = 10;
+/// The side of cells in which leaves lie, metres.
+constexpr double leaf_cell = 1.0;
 
 const TreePreset& preset_of(const PlotContent& content, std::size_t kind, const Atlas& atlas) {
     if (kind >= content.kinds.size())
@@ -57,8 +52,7 @@ TreeSpec tree_spec(const TreePreset& preset, std::uint64_t shape, int lod, const
     spec.params.seed = static_cast<std::uint32_t>(1 + shape);
     spec.params.lod = lod;
     spec.params.texture_size.value = tree_texture_side;
-    // The ground is raised round the trunk, and the clod of a tree of its own would lie on it.
-    spec.params.look.shape.root_flare = 0.0;
+    spec.params.foot_soil = false;
     if (!evergreen) {
         spec.params.autumn = state.autumn;
         if (state.bare) spec.params.look.leaves.per_tip = 0;
@@ -242,6 +236,9 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
             !has_needles({preset.shape, preset.palette}) && preset.shape.leaflets == Leaflets{};
         if (falls[kind]) own.one = foliage_leaf(shape_of(own.leaf), triangles);
     }
+    // Leaves fade from their fall in November on.
+    const double since = (day_of_year(content.time) + 365.0 - 305.0) / 365.0;
+    const double faded = since - std::floor(since);
     const WorldBox& box = frame.box();
     const auto [west, east] = cells_of(box.west, box.east, leaf_cell);
     const auto [south, north] = cells_of(box.south, box.north, leaf_cell);
@@ -263,7 +260,7 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
                     continue;
                 const Cover here = cover.at(x, y);
                 const double all = here.all_leaves();
-                if (chance >= all * per_m2 / most) continue;
+                if (chance >= all * (1.0 - content.snow) * per_m2 / most) continue;
                 double rest = which * all;
                 std::size_t kind = 0;
                 while (kind + 1 < leaves.size() && rest >= here.leaves[kind])
@@ -277,7 +274,8 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
                 const double scale = 0.7 + 0.5 * size;
                 // A leaf that leans has one side on the ground.
                 const double reach = 0.3 * scale * leaves[kind].leaf.shape.length;
-                const double bright = 0.7 + 0.3 * hue, old = 0.55 * age * age;
+                const double bright = 0.7 + 0.3 * hue,
+                             old = std::min(1.0, 0.45 * age * age + 0.55 * faded);
                 // Lower faces are paler, and duller on the ground than on the tree.
                 const glm::dvec3 tint =
                     (sign < 0.0 ? 0.62 : 1.0) * bright *
@@ -296,85 +294,6 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
                                 [](const PlotLeaves& own) { return own.places.empty(); }),
                  leaves.end());
     return leaves;
-}
-
-Mesh grass_of(const PlotContent& content, const PlotFrame& frame, const CoverField& cover,
-              std::uint64_t most) {
-    struct Tuft {
-        double x, y, share;
-        std::uint32_t seed;
-    };
-    std::vector<Tuft> tufts;
-    const WorldBox& box = frame.box();
-    const auto [west, east] = cells_of(box.west, box.east, tuft_cell);
-    const auto [south, north] = cells_of(box.south, box.north, tuft_cell);
-    for (int row = south; row <= north; ++row)
-        for (int column = west; column <= east; ++column)
-            for (int k = 0; k < tufts_of_cell; ++k) {
-                Random random(seed_of_cell(content.seed, 1, column, row), purposes::plot_pieces,
-                              static_cast<std::uint32_t>(k));
-                const double along = random.uniform(), up = random.uniform(),
-                             chance = random.uniform();
-                const std::uint32_t seed = random.bits();
-                const double x = (column + along) * tuft_cell, y = (row + up) * tuft_cell;
-                constexpr double rim = 0.05;
-                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
-                    y >= box.north - rim)
-                    continue;
-                const double grass = cover.at(x, y).grass;
-                if (chance < grass * grass) tufts.push_back({x, y, grass, seed});
-            }
-    const std::uint64_t of_tuft = blades_of_tuft * triangles_of_blade;
-    // Too many of them are thinned out evenly.
-    const std::size_t stride =
-        1 + static_cast<std::size_t>(tufts.size() * of_tuft / std::max<std::uint64_t>(most, 1));
-    const GrassSeason season = grass_on(day_of_year(content.time));
-    Mesh mesh;
-    for (std::size_t i = 0; i < tufts.size(); i += stride) {
-        const Tuft& tuft = tufts[i];
-        const glm::dvec3 foot = frame.on_floor(tuft.x, tuft.y);
-        Random random(tuft.seed, purposes::plot_pieces);
-        const double height = (0.05 + 0.16 * random.uniform()) * (0.4 + 0.6 * tuft.share);
-        for (int blade = 0; blade < blades_of_tuft; ++blade) {
-            const double angle = 2.0 * pi * random.uniform(), out = random.uniform(),
-                         size = random.uniform(), hue = random.uniform(), bend = random.uniform();
-            const SineCosine to = sine_cosine(angle);
-            const glm::dvec3 outwards(to.cosine, 0.0, to.sine), across(-to.sine, 0.0, to.cosine);
-            const double length = height * (0.6 + 0.6 * size), width = 0.003 + 0.0025 * size;
-            const glm::dvec3 root = foot + 0.025 * out * outwards - glm::dvec3(0.0, 0.012, 0.0);
-            const glm::dvec3 middle =
-                root + length * (0.12 + 0.2 * out) * outwards + glm::dvec3(0.0, 0.55 * length, 0.0);
-            const glm::dvec3 tip = middle + length * (0.15 + 0.45 * bend) * outwards +
-                                   glm::dvec3(0.0, 0.45 * length * (1.0 - bend), 0.0);
-            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-            const double green = 1.0 - season.dry;
-            const glm::dvec3 tint =
-                hue > green ? glm::dvec3(0.32, 0.26, 0.12)
-                            : season.fresh * glm::mix(glm::dvec3(0.035, 0.075, 0.012),
-                                                      glm::dvec3(0.15, 0.22, 0.04), hue / green);
-            const auto add = [&](const glm::dvec3& at, const glm::dvec3& normal, double light) {
-                mesh.positions.emplace_back(at);
-                mesh.normals.emplace_back(glm::normalize(normal));
-                mesh.tints.emplace_back(light * tint);
-            };
-            for (const auto& [at, breadth, light] :
-                 {std::tuple{root, width, 0.55}, std::tuple{middle, 0.8 * width, 0.85}}) {
-                add(at + breadth * across, across + 0.4 * glm::dvec3(0.0, 1.0, 0.0), light);
-                add(at - breadth * across, -across + 0.4 * glm::dvec3(0.0, 1.0, 0.0), light);
-                add(at + 0.4 * breadth * outwards, outwards, light);
-            }
-            add(tip, outwards + glm::dvec3(0.0, 1.0, 0.0), 1.0);
-            // Corners of a section: on both sides, and on the lower face.
-            for (const auto& [a, b] : {std::pair{0U, 1U}, std::pair{1U, 2U}, std::pair{2U, 0U}}) {
-                const std::uint32_t low = first + a, next = first + b, high = low + 3,
-                                    next_high = next + 3;
-                mesh.indices.insert(mesh.indices.end(), {low, next_high, next, low, high, next_high,
-                                                         high, first + 6, next_high});
-            }
-            mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
-        }
-    }
-    return mesh;
 }
 
 }  // namespace sporeprint

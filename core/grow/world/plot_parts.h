@@ -1,4 +1,4 @@
-// The parts of a plot as meshes: trees, dead wood, leaves and grass. Coordinates are those of the file.
+// The parts of a plot as meshes: trees, dead wood and leaves. Coordinates are those of the file.
 #pragma once
 
 #include <cstdint>
@@ -91,11 +91,5 @@ inline constexpr double rim_of_leaves = 0.06;
 [[nodiscard]] std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& frame,
                                                 const CoverField& cover, double per_m2,
                                                 const Atlas& atlas, double rim = rim_of_leaves);
-
-/// Returns the blades of grass of a plot as one mesh with tints; empty where none grows.
-///
-/// most  number of triangles
-[[nodiscard]] Mesh grass_of(const PlotContent& content, const PlotFrame& frame,
-                            const CoverField& cover, std::uint64_t most);
 
 }  // namespace sporeprint

@@ -44,11 +44,13 @@ std::optional<std::pair<double, double>> part_within(const WorldBox& box, const 
 /// How far a log bends with the ground: over half of this length its height is the mean of the ground's, metres.
 constexpr double stiffness = 2.4;
 
-/// Heights of the ground along a line, which a stiff trunk follows.
+/// Heights of the ground along a lying trunk, as the trunk smooths them: a sound one is straight between the places where
+/// it is broken, a rotten one follows the ground.
 class LogProfile {
   public:
+    /// rotten  0..1
     LogProfile(const FloorHeights& floor, const glm::dvec2& from, const glm::dvec2& way,
-               double length) {
+               double length, double rotten) {
         const auto count = static_cast<std::size_t>(std::ceil(length / step)) + 1;
         std::vector<double> own;
         own.reserve(count);
@@ -64,6 +66,7 @@ class LogProfile {
             for (std::size_t k = i - side; k <= i + side; ++k) sum += own[k];
             heights_.push_back(sum / static_cast<double>(2 * side + 1));
         }
+        straighten(rotten);
     }
     [[nodiscard]] double at(double s) const {
         const double number = std::clamp(s / step, 0.0, static_cast<double>(heights_.size() - 1));
@@ -73,6 +76,26 @@ class LogProfile {
     }
 
   private:
+    /// Makes a sound trunk straight between the places where it is broken, since longer ones would span the hollows of
+    /// the ground.
+    void straighten(double rotten) {
+        const std::size_t last = heights_.size() - 1;
+        const auto pieces = std::max<std::size_t>(1, last / between_breaks);
+        const std::vector<double> ground = heights_;
+        for (std::size_t piece = 0; piece < pieces; ++piece) {
+            const std::size_t from = last * piece / pieces, to = last * (piece + 1) / pieces;
+            if (to <= from) continue;
+            for (std::size_t i = from; i <= to; ++i) {
+                const double along = static_cast<double>(i - from) / static_cast<double>(to - from);
+                const double line = ground[from] + along * (ground[to] - ground[from]);
+                heights_[i] = ground[i] + (1.0 - rotten) * (line - ground[i]);
+            }
+        }
+    }
+
+    /// Length of a piece, in steps.
+    static constexpr std::size_t between_breaks = 25;
+
     static constexpr double step = 0.2;  // metres
     std::vector<double> heights_;
 };
@@ -110,14 +133,15 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     if (!part) return std::nullopt;
     const double from = part->first * wood.length, to = part->second * wood.length;
     if (to - from < least_length) return std::nullopt;
-    const LogProfile profile(frame.floor(), foot + from * way, way, to - from);
+    // The whole trunk, so that a part of it lies as the others do.
+    const LogProfile profile(frame.floor(), foot, way, wood.length, smooth_step(0.1, 0.75, lost));
     // Rotten wood sinks into the ground.
     const double raised = 0.72 - 0.55 * lost, whole = wood.length;
     return TrunkLine{
         from, to, [=, &frame](double s) {
             const double here = radius * (1.0 - 0.8 * std::clamp(s / whole, 0.0, 1.0));
             const glm::dvec2 at = foot + s * way;
-            return TrunkSection{frame.at(at.x, at.y, profile.at(s - from) + raised * here), here};
+            return TrunkSection{frame.at(at.x, at.y, profile.at(s) + raised * here), here};
         }};
 }
 

@@ -19,6 +19,7 @@
 #include "core/grow/painting.h"
 #include "core/grow/tree.h"
 #include "core/grow/wood.h"
+#include "core/grow/world/flowers.h"
 #include "core/grow/world/parts.h"
 #include "core/grow/world/plot_bodies.h"
 #include "core/grow/world/plot_of_world.h"
@@ -403,6 +404,13 @@ class TileScene {
             const std::size_t leaves = materials_.leaves("fallen", own.preset, paint_of(own.leaf));
             meshes_.push_back(std::move(own.one));
             add_repeated("litter_" + own.preset, own.leaf, meshes_.back(), leaves, own.places);
+        }
+        for (const FlowerKind& kind : flower_kinds()) {
+            const std::vector<GlbTransform> places = flowers_on(kind, content_, frame, cover);
+            if (places.empty()) continue;
+            const std::size_t flowers = materials_.plain("flowers");
+            meshes_.push_back(flower_mesh(kind));
+            add_repeated(std::string(kind.name), {}, meshes_.back(), flowers, places);
         }
     }
 

@@ -1,9 +1,11 @@
 #include "core/grow/world/tile_grass.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/grow/world/plot_parts.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
@@ -13,9 +15,8 @@ namespace sporeprint {
 
 namespace {
 
-/// Side of the cells in which tufts stand, metres, and tufts of a cell where grass covers it.
+/// Side of the cells in which tufts stand, metres.
 constexpr double cell = 0.5;
-constexpr int tufts_of_cell = 3;
 
 constexpr int blades_of_tuft = 6;
 constexpr double height_of_tuft = 0.13;
@@ -42,7 +43,8 @@ void add_blade(Mesh& mesh, Random& random, const GrassSeason& season) {
                           glm::mix(green_dark, green_pale, static_cast<float>(hue / green));
     for (const double face : {1.0, -1.0}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        const glm::dvec3 normal = glm::normalize(face * (0.8 * outwards - 0.6 * up));
+        // Light passes through blades and comes from their neighbours: both faces are lit nearly as the ground is.
+        const glm::dvec3 normal = glm::normalize(face * 0.4 * (0.8 * outwards - 0.6 * up) + up);
         const auto add = [&](const glm::dvec3& at, float light) {
             mesh.positions.emplace_back(at);
             mesh.normals.emplace_back(normal);
@@ -70,29 +72,51 @@ Mesh tuft_mesh(std::size_t shape, const GrassSeason& season) {
 }
 
 std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content, const PlotFrame& frame,
-                                                const CoverField& cover) {
+                                                const CoverField& cover, int per_cell, double rim) {
     std::vector<std::vector<GlbTransform>> places(tuft_shapes);
     const WorldBox& box = frame.box();
     const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / cell)); };
-    // The sides of tiles are multiples of those of cells.
-    for (int row = cell_of(box.south); row < cell_of(box.north); ++row)
-        for (int column = cell_of(box.west); column < cell_of(box.east); ++column) {
+    for (int row = cell_of(box.south); row <= cell_of(box.north); ++row)
+        for (int column = cell_of(box.west); column <= cell_of(box.east); ++column) {
             Random random(content.seed, purposes::plot_pieces, 4, {column, row});
-            for (int k = 0; k < tufts_of_cell; ++k) {
+            for (int k = 0; k < per_cell; ++k) {
                 const double along = random.uniform(), up = random.uniform(),
                              chance = random.uniform(), size = random.uniform(),
                              turn = random.uniform();
                 const std::size_t shape = random.bits() % tuft_shapes;
                 const double x = (column + along) * cell, y = (row + up) * cell;
+                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
+                    y >= box.north - rim)
+                    continue;
                 const double grass = cover.at(x, y).grass;
                 if (chance >= grass * grass) continue;
-                const double scale = (0.4 + 1.2 * size) * (0.4 + 0.6 * grass);
+                // The lower half of a tuft is below the snow.
+                const double scale =
+                    (0.4 + 1.2 * size) * (0.4 + 0.6 * grass) * (1.0 - 0.5 * content.snow);
                 const SineCosine half = sine_cosine(pi * turn);
                 places[shape].push_back(
                     {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
             }
         }
     return places;
+}
+
+Mesh grass_of(const PlotContent& content, const PlotFrame& frame, const CoverField& cover,
+              std::uint64_t most) {
+    const double cells = (content.size / cell) * (content.size / cell);
+    constexpr double triangles_of_tuft = 6.0 * blades_of_tuft;
+    const double per_cell = std::floor(static_cast<double>(most) / (triangles_of_tuft * cells));
+    const int number = std::min(static_cast<int>(per_cell), tufts_of_plot_cell);
+    const std::vector<std::vector<GlbTransform>> places =
+        tufts_on(content, frame, cover, number, rim_of_grass);
+    Mesh all;
+    for (std::size_t shape = 0; shape < places.size(); ++shape)
+        if (!places[shape].empty())
+            append(all,
+                   PlotLeaves{
+                       {}, {}, tuft_mesh(shape, grass_on(day_of_year(content.time))), places[shape]}
+                       .merged());
+    return all;
 }
 
 }  // namespace sporeprint

@@ -1,7 +1,8 @@
-// Grass on a tile: tufts that repeat a few shapes.
+// Grass: tufts that repeat a few shapes.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/gltf/glb.h"
@@ -22,9 +23,28 @@ inline constexpr std::size_t tuft_shapes = 4;
 /// season  how many of its blades are withered, and how bright the others are
 [[nodiscard]] Mesh tuft_mesh(std::size_t shape, const GrassSeason& season);
 
+/// Tufts on a square of half a metre where grass covers it.
+inline constexpr int tufts_of_cell = 3;
+
 /// Returns the places of tufts of each shape, in the order of the cells of the world.
+///
+/// per_cell  tufts on a square of half a metre; more of them are more beside the same ones
+/// rim       distance from the border within which none stands, metres
 [[nodiscard]] std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content,
                                                               const PlotFrame& frame,
-                                                              const CoverField& cover);
+                                                              const CoverField& cover,
+                                                              int per_cell = tufts_of_cell,
+                                                              double rim = 0.0);
+
+/// Tufts on a square of half a metre of a plot, and how far from its border they stand, so that none reaches beyond it,
+/// metres.
+inline constexpr int tufts_of_plot_cell = 12;
+inline constexpr double rim_of_grass = 0.12;
+
+/// Returns the grass of a plot as one mesh with tints; empty where none grows.
+///
+/// most  number of triangles, for which there are fewer tufts everywhere
+[[nodiscard]] Mesh grass_of(const PlotContent& content, const PlotFrame& frame,
+                            const CoverField& cover, std::uint64_t most);
 
 }  // namespace sporeprint

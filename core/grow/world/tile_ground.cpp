@@ -222,13 +222,18 @@ Mesh TileGround::slab(const FloorHeights& floor, double height) {
     params.is_seen_from_above = true;
     // Walls hide the cracks between tiles of different sizes.
     params.depth = std::max(0.4, content_.size / 16.0);
-    if (!shows_crowns(content_)) return slab_mesh(params, floor);
     return slab_mesh(params, [&](std::span<const double> x, std::span<const double> y) {
-        std::vector<double> heights = floor.at(x, y);
-        const std::vector<double> crowns = crown_heights(canopy_, content_, x, y);
-        for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += crowns[i];
-        return heights;
+        return heights(floor, x, y);
     });
+}
+
+std::vector<double> TileGround::heights(const FloorHeights& floor, std::span<const double> x,
+                                        std::span<const double> y) {
+    std::vector<double> all = floor.at(x, y);
+    if (!shows_crowns(content_)) return all;
+    const std::vector<double> crowns = crown_heights(canopy_, content_, x, y);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += crowns[i];
+    return all;
 }
 
 RawImages TileGround::images(const Atlas& atlas, const Parallel& parallel) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "core/atlas/atlas.h"
 #include "core/grow/world/plot.h"
@@ -44,6 +46,10 @@ class TileGround {
     /// floor   heights of the ground with the feet of trees
     /// height  in the world of what is at y = 0
     [[nodiscard]] Mesh slab(const FloorHeights& floor, double height);
+
+    /// Returns the heights of a grid of places, with the crowns where they are part of the ground.
+    [[nodiscard]] std::vector<double> heights(const FloorHeights& floor, std::span<const double> x,
+                                              std::span<const double> y);
 
     /// Paints the images, all with the texels of the colours.
     ///

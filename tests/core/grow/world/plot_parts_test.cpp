@@ -142,24 +142,11 @@ TEST(PlotLeaves, LieOnTheFloorInTheRequestedNumber) {
     EXPECT_TRUE(leaves_of(parts.content, parts.frame, parts.cover, 0.0, atlas()).empty());
 }
 
-TEST(PlotGrass, StandsInTheLightAndNotInTheShade) {
-    PlotContent content = small_wood().content();
-    content.trees = {};
-    const Parts meadow(content);
-    const Mesh grass = grass_of(meadow.content, meadow.frame, meadow.cover, 60'000);
-    expect_valid(grass);
-    EXPECT_GT(grass.triangles(), 5'000U);
-    EXPECT_LE(grass.triangles(), 60'000U);
-    EXPECT_LE(grass_of(meadow.content, meadow.frame, meadow.cover, 3'000).triangles(), 3'000U);
-    content.light = [](double, double) { return 0.03; };
-    const Parts shade(content);
-    EXPECT_TRUE(grass_of(shade.content, shade.frame, shade.cover, 60'000).positions.empty());
-}
-
 TEST(WoodOf, IsThatOfTheTree) {
     EXPECT_EQ(wood_of(*atlas().find_tree("birch")), Substrate::birch);
     EXPECT_EQ(wood_of(*atlas().find_tree("spruce")), Substrate::spruce);
     EXPECT_EQ(wood_of(*atlas().find_tree("broadleaf")), Substrate::oak);
+    EXPECT_EQ(wood_of(*atlas().find_tree("beech")), Substrate::beech);
 }
 
 }  // namespace

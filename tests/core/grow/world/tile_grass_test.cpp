@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/support/meshes.h"
 #include "tests/support/plots.h"
 
@@ -46,6 +49,41 @@ TEST(TileGrass, GrowsAsGrassCoversTheGround) {
     // Twelve on each square metre, and a quarter of them where grass covers half.
     EXPECT_EQ(count(1.0), 16U * 16U * 12U);
     EXPECT_NEAR(static_cast<double>(count(0.5)), 0.25 * 16 * 16 * 12, 100.0);
+}
+
+TEST(TileGrass, OfAPlotKeepsItsBudgetAndItsBorders) {
+    const SmallWood wood;
+    const PlotContent content = wood.content(0.0, 0.0, 4.0);
+    const FloorHeights floor(wood.ground, content.seed, content.micro, {});
+    const PlotFrame frame(content, floor);
+    const CoverField cover = covered_with_grass(box_of(content), 1.0);
+    const Mesh grass = grass_of(content, frame, cover, 60'000);
+    expect_valid(grass);
+    EXPECT_GT(grass.triangles(), 20'000U);
+    EXPECT_LE(grass.triangles(), 60'000U);
+    const Mesh less = grass_of(content, frame, cover, 5'000);
+    EXPECT_LE(less.triangles(), 5'000U);
+    EXPECT_FALSE(less.positions.empty());
+    EXPECT_TRUE(grass_of(content, frame, covered_with_grass(box_of(content), 0.0), 60'000)
+                    .positions.empty());
+    for (const glm::vec3& at : grass.positions)
+        EXPECT_LE(std::max(std::abs(at.x), std::abs(at.z)), 2.0F);
+}
+
+TEST(TileGrass, OfAnyDensityHasTheTuftsOfALesserOne) {
+    const SmallWood wood;
+    const PlotContent content = wood.content(0.0, 0.0, 4.0);
+    const FloorHeights floor(wood.ground, content.seed, content.micro, {});
+    const PlotFrame frame(content, floor);
+    const CoverField cover = covered_with_grass(box_of(content), 0.8);
+    const auto few = tufts_on(content, frame, cover, 3), many = tufts_on(content, frame, cover, 9);
+    for (std::size_t shape = 0; shape < tuft_shapes; ++shape) {
+        EXPECT_GT(many[shape].size(), 2 * few[shape].size());
+        for (const GlbTransform& place : few[shape])
+            EXPECT_TRUE(std::ranges::any_of(many[shape], [&](const GlbTransform& other) {
+                return other.translation == place.translation;
+            }));
+    }
 }
 
 }  // namespace

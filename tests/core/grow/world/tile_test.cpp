@@ -223,7 +223,7 @@ TEST(Tile, OfTheProfileWebSharesGeometryWithTheFilesOfItsShapes) {
                 TreeSpec spec{kind.id, params_of(*atlas().find_tree(kind.id))};
                 spec.params.seed = seed;
                 spec.params.lod = 2;
-                spec.params.look.shape.root_flare = 0.0;
+                spec.params.foot_soil = false;
                 spec.params.texture_size.value = 2048;
                 std::size_t bytes = 0;
                 const TreeMeshes meshes = tree_meshes(spec, atlas());
