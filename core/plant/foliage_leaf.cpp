@@ -135,8 +135,9 @@ struct Model {
     bool is_star = false;
 };
 
-// Longest side veins of a star, in edges of its middle vein.
-constexpr double widest_star = 3.0;
+// Longest side veins of a star, in edges of its middle vein: of leaflets in a plane, and of needles all round a shoot,
+// whose star would be a broad blade and not a twig.
+constexpr double widest_star = 3.0, widest_shoot = 0.9;
 
 Model model_of(const LeafShape& shape) {
     const double area = lamina_area(shape) / (shape.length * shape.length);
@@ -146,8 +147,8 @@ Model model_of(const LeafShape& shape) {
     // The star has the area of all leaflets as far as it can be wide, and shows the middle of the image of one.
     Venation& veins = model.shape.venation;
     const auto border_at = [&] { return border_of(lamina_of(veins, 1)); };
-    veins.side_length =
-        std::clamp(veins.side_length * area / area_of(border_at()), 0.1, widest_star);
+    const double widest = shape.leaflets.turn_deg == 180.0 ? widest_star : widest_shoot;
+    veins.side_length = std::clamp(veins.side_length * area / area_of(border_at()), 0.1, widest);
     // Many long leaflets cover each other.
     model.area = std::min(area, area_of(border_at()));
     const auto half_width = [](const std::vector<glm::dvec2>& border) {

@@ -51,6 +51,9 @@ int surroundings_side(const PictureParams& params) {
 /// Sides of the shadow maps outdoors, texels: of the sun and of the sky, of what is near and of the whole scene.
 constexpr int near_sun_side = 1024, sun_side = 768, near_sky_side = 256, sky_side = 160;
 
+/// How few of the lights outdoors are drawn: every second one.
+constexpr int outdoors_detail = 2;
+
 /// Rows of pixels that are shaded by one task, and bands in which triangles are found.
 constexpr int band = 16, visible_bands = 4;
 
@@ -280,8 +283,7 @@ class Drawing {
     /// Draws outdoors. The sky must outlive the drawing.
     Drawing(const DrawList& list, const Camera& camera, const PictureParams& params, const Sky& sky,
             const Outdoors& outdoors, const Parallel& parallel)
-        : Drawing(list, camera, params, &sky,
-                  sky.lights(detail_of_lights(params, list.triangles())),
+        : Drawing(list, camera, params, &sky, sky.lights(outdoors_detail),
                   {sun_side, ShadowFocus{outdoors.near, near_sun_side}},
                   {sky_side, ShadowFocus{outdoors.near, near_sky_side}}, parallel) {}
 

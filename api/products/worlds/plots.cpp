@@ -265,10 +265,12 @@ Cost cost_of_plot(const PlotRequest& request, Product file) {
     Cost cost{.base = 40'000 + 20'000 * blocks};
     if (file == Product::json) return cost;
     if (file == Product::png) {
-        const Cost drawing = cost_of_drawing(request.picture.picture(), most_plot_triangles);
-        cost += drawing;
-        cost.pixels += 3 * static_cast<std::uint64_t>(params.texture_size) *
-                       static_cast<std::uint64_t>(params.texture_size);
+        const bool shows_world = request.picture.shows_world();
+        cost += cost_of_drawing(request.picture.picture(),
+                                shows_world ? most_scenery_triangles : most_plot_triangles);
+        const auto side =
+            static_cast<std::uint64_t>(shows_world ? scenery_texels : params.texture_size);
+        cost.pixels += 3 * side * side;
     }
     const auto area = static_cast<std::uint64_t>(params.size * params.size);
     cost.placed_vertices = 100'000 + area * 1000;

@@ -94,7 +94,7 @@ class LogProfile {
     }
 
     /// Length of a piece, in steps.
-    static constexpr std::size_t between_breaks = 25;
+    static constexpr std::size_t between_breaks = 35;
 
     static constexpr double step = 0.2;  // metres
     std::vector<double> heights_;
@@ -134,7 +134,7 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     const double from = part->first * wood.length, to = part->second * wood.length;
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
-    const LogProfile profile(frame.floor(), foot, way, wood.length, smooth_step(0.1, 0.75, lost));
+    const LogProfile profile(frame.floor(), foot, way, wood.length, smooth_step(0.2, 0.95, lost));
     // Rotten wood sinks into the ground.
     const double raised = 0.72 - 0.55 * lost, whole = wood.length;
     return TrunkLine{

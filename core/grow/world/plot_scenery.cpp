@@ -42,16 +42,22 @@ namespace sporeprint {
 
 namespace {
 
-/// Sides of the squares of ground, metres: before the camera, round the plot at least, farther away, as far as trees
+/// Sides of the squares of ground, metres: before the camera, before one that is close, round the plot at least, farther away, as far as trees
 /// are known one by one, and as far as crowns are part of the ground.
-constexpr double nearest_ground = 3.2, least_near_ground = 12.8, middle_ground = 51.2,
-                 far_ground = 256.0, farthest_ground = 1024.0;
+constexpr double nearest_ground = 3.2, close_ground = 1.6, least_near_ground = 12.8,
+                 middle_ground = 51.2, far_ground = 256.0, farthest_ground = 1024.0;
 
 /// Depth of the walls round the square whose ground has crowns, metres.
 constexpr double below_crowns = 40.0;
 
-/// Texels along the sides of the images of the ground.
-constexpr int ground_texels = 1024;
+/// Texels along the sides of the images of the ground: of squares with each leaf and needle but the nearest, and of others.
+constexpr int fine_texels = 2048, ground_texels = 1024;
+
+/// A camera that is nearer than this to what it looks at is close to it, metres.
+constexpr double close_by = 1.3;
+
+/// Nodes of the cover along the side of a square, but near the camera.
+constexpr double most_cover_nodes = 64.0;
 
 /// How far from the camera trees are shown, metres, and the sides of the images of wood, texels.
 constexpr double trees_within = 135.0;
@@ -65,8 +71,11 @@ constexpr std::uint64_t most_of_trees = 2'000'000, most_of_bodies = 400'000;
 
 /// Tufts of grass on a square of half a metre: before the camera, round the plot, and farther away, where they are shown
 /// within a distance, metres.
-constexpr int nearest_tufts = 40, near_tufts = 14, middle_tufts = 2;
-constexpr double middle_tufts_within = 24.0;
+constexpr int nearest_tufts = 48, near_tufts = 20, middle_tufts = 8;
+constexpr double middle_tufts_within = 45.0;
+
+/// The distance from which on there are fewer of them, as the square of the distance grows, metres.
+constexpr double all_tufts_within = 9.0;
 
 /// Within this distance dead trunks are shown in full detail, metres.
 constexpr double near_trunks = 9.0;
@@ -104,9 +113,9 @@ TreeLevels levels_at(double distance, double height, bool low, bool seen, double
     if (!seen && distance > 8.0) return {first_far_lod, first_far_lod};
     if (apparent < 6.0) return {1, low ? 0 : 2};
     if (apparent < 13.0) return {1, low ? 1 : 2};
-    if (apparent < 32.0) return {2, 2};
-    if (apparent < 60.0) return {3, 3};
-    const int far = apparent < 85.0 ? 0 : 1;
+    if (apparent < 45.0) return {2, 2};
+    if (apparent < 75.0) return {3, 3};
+    const int far = apparent < 100.0 ? 0 : 1;
     return {first_far_lod + far, first_far_lod + far};
 }
 
@@ -147,7 +156,7 @@ class Scenery {
 
     /// Returns the part of the scene whose shadows are seen from near.
     [[nodiscard]] Bounds near_box() const {
-        const WorldBox box = grown(near_, 2.0);
+        const WorldBox box = is_close_ ? grown(nearest_, 0.8) : grown(near_, 2.0);
         const PlotFrame frame(plot_, *floor_);
         const glm::dvec3 low = frame.at(box.west, box.north, frame.height() - 2.0),
                          high = frame.at(box.east, box.south, frame.height() + 2.5);
@@ -174,6 +183,7 @@ class Scenery {
     std::optional<FloorHeights> floor_;
     glm::dvec3 origin_{0.0};  ///< of the picture in the world
     WorldBox nearest_, near_, middle_, far_, farthest_;
+    bool is_close_ = false;  ///< the camera is close to what it looks at
 
     [[nodiscard]] glm::dvec2 eye() const {
         return {metres(plot_.centre.x) + camera_.eye.x, metres(plot_.centre.y) - camera_.eye.z};
@@ -196,10 +206,10 @@ class Scenery {
         const glm::dvec2 target(x + camera_.target.x, y - camera_.target.z);
         const double away = std::min(glm::distance(target, eye()), 2.4);
         const glm::dvec2 before = eye() + away * gaze();
-        const double half = 0.5 * nearest_ground;
+        is_close_ = away < close_by;
+        const double side = is_close_ ? close_ground : nearest_ground, half = 0.5 * side;
         nearest_ = square_round(std::clamp(before.x, near_.west + half, near_.east - half),
-                                std::clamp(before.y, near_.south + half, near_.north - half),
-                                nearest_ground);
+                                std::clamp(before.y, near_.south + half, near_.north - half), side);
     }
 
     /// Returns what is on a square.
@@ -235,9 +245,15 @@ class Scenery {
         scene_.meshes.push_back({name, {{&meshes_.back(), material, {}}}, role});
     }
 
+    /// Returns whether each leaf and needle is painted on a square.
+    [[nodiscard]] bool has_pieces(const WorldBox& box) const { return is_within(box, middle_); }
+
     /// Returns the step of the cover of a square, metres: near the camera that of single leaves.
     [[nodiscard]] double step_of(const WorldBox& box) const {
-        return is_within(box, near_) ? CoverField::finest_step : (box.east - box.west) / 64.0;
+        double step = CoverField::finest_step;
+        if (!has_pieces(box))
+            while (step < (box.east - box.west) / most_cover_nodes) step *= 2.0;
+        return step;
     }
 
     /// Adds a square of ground whose crowns are not part of it.
@@ -248,14 +264,14 @@ class Scenery {
         throw_if_cancelled(execution_);
         const PlotContent content = content_on(box);
         const PlotFrame frame(content, *floor_);
+        const int texels = hole && has_pieces(box) ? fine_texels : ground_texels;
         const std::size_t material = materials_.ground(name, [&](ImageFormat format) {
-            const bool has_pieces = is_within(box, near_);
             const CoverField cover = cover_of(content, atlas_, step_of(box));
             return encoded(
-                floor_of(content, cover, ground_texels, has_pieces, atlas_, execution_.parallel),
+                floor_of(content, cover, texels, has_pieces(box), atlas_, execution_.parallel),
                 format, execution_.parallel);
         });
-        const GroundRingParams ring{box, hole, finest, growth, ground_texels, frame.height()};
+        const GroundRingParams ring{box, hole, finest, growth, texels, frame.height()};
         add_single(
             node_of(frame),
             ground_ring(ring, [this](std::span<const double> x,
@@ -427,6 +443,7 @@ class Scenery {
         const std::size_t parent = node_of(frame);
         const std::size_t blades = materials_.plain("grass");
         for (std::size_t shape = 0; shape < all.size(); ++shape) {
+            std::size_t number = 0;
             PlotLeaves tufts;
             tufts.one = tuft_mesh(shape, grass_on(day_of_year(plot_.time)));
             for (const GlbTransform& place : all[shape]) {
@@ -435,7 +452,10 @@ class Scenery {
                 if (but && at.x > but->west && at.x < but->east && at.y > but->south &&
                     at.y < but->north)
                     continue;
-                if (but && glm::distance(at, eye()) > middle_tufts_within) continue;
+                const double away = glm::distance(at, eye()) / all_tufts_within;
+                if (but && away * all_tufts_within > middle_tufts_within) continue;
+                const auto one_of = static_cast<std::size_t>(std::max(1.0, away * away));
+                if (but && ++number % one_of != 0) continue;
                 tufts.places.push_back(place);
             }
             if (!fewer.empty()) remove(tufts.places, fewer[shape]);
@@ -470,7 +490,7 @@ class Scenery {
         }
         const PlotFrame frame(content, *floor_);
         const std::size_t parent = node_of(frame);
-        const CoverField cover = cover_of(content, atlas_, 0.4);
+        const CoverField cover = cover_of(content, atlas_, step_of(middle_));
         for (const auto& [list, detail] :
              {std::pair{&near, TrunkDetail{}}, {&far, TrunkDetail{10, 40}}}) {
             content.dead_wood = *list;
@@ -516,7 +536,7 @@ Daylight daylight_on(const World& world, WorldTime time) {
     light.to_sun = {sun.east, sun.up, -sun.north};
     constexpr double wet = 0.2;  // mm, from which on a day has rain
     light.cloud = today.rain > wet ? 1.0 : before.rain > wet ? 0.55 : 0.15;
-    light.visibility = today.rain > wet ? 500.0 : before.rain > wet ? 1000.0 : 2800.0;
+    light.visibility = today.rain > wet ? 500.0 : before.rain > wet ? 1200.0 : 6000.0;
     return light;
 }
 

@@ -2,6 +2,8 @@
 // wood, grass, leaves and fruit bodies, in the light of the day.
 #pragma once
 
+#include <cstdint>
+
 #include "core/atlas/atlas.h"
 #include "core/grow/execution_context.h"
 #include "core/grow/world/plot.h"
@@ -9,6 +11,10 @@
 #include "core/render/render.h"
 
 namespace sporeprint {
+
+/// About the most triangles of a scenery, and the side of an image with as many texels as all of its ground has.
+inline constexpr std::uint64_t most_scenery_triangles = 3'500'000;
+inline constexpr int scenery_texels = 2048;
 
 /// Returns the light of the early morning of a day, as its weather lets it through: the sky is overcast on days with
 /// rain, and hazy after them.

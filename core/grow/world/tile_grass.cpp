@@ -31,7 +31,7 @@ void add_blade(Mesh& mesh, Random& random, const GrassSeason& season) {
     const SineCosine to = sine_cosine(angle);
     const glm::dvec3 outwards(to.cosine, 0.0, to.sine), across(-to.sine, 0.0, to.cosine),
         up(0.0, 1.0, 0.0);
-    const double length = height_of_tuft * (0.6 + 0.6 * size), width = 0.0035 + 0.003 * size;
+    const double length = height_of_tuft * (0.6 + 0.6 * size), width = 0.002 + 0.002 * size;
     const glm::dvec3 root = 0.03 * out * outwards - 0.012 * up;
     const glm::dvec3 middle = root + length * ((0.12 + 0.2 * out) * outwards + 0.55 * up);
     const glm::dvec3 tip =

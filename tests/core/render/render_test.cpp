@@ -45,7 +45,9 @@ TEST(Render, FromAPlaceInTheSceneShowsWhatIsBeforeTheCamera) {
     const Mesh mesh = ball(1.0F, {0.0F, 0.0F, -10.0F}, 128, 64);
     PictureParams params = square(128);
     const auto share = [&](const glm::dvec3& eye, const glm::dvec3& target, double angle = 20.0) {
-        return share_above(rendered_from({eye, target, angle}, scene_of(mesh), params), 127);
+        return share_above(rendered_from({eye, target, angle}, scene_of(mesh), params,
+                                         {Daylight{}, bounds(mesh), false}),
+                           127);
     };
     // A ball of radius 1 at distance 10 has a disc of tangent 0.1005; the picture reaches to 0.1763.
     const double wanted = 3.14159 / 4.0 * (0.1005 / 0.1763) * (0.1005 / 0.1763);
