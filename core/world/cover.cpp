@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 
@@ -138,6 +139,10 @@ Cover CoverField::at(double x, double y) const {
 }
 
 CoverField cover_lattice(const WorldBox& box, double margin, double step) {
+    double power = CoverField::finest_step;
+    while (power < step) power *= 2.0;
+    if (power != step)
+        throw InvalidInput("/step", "the step of a cover is half a metre times a power of two");
     const auto number = [step](double metres) {
         return static_cast<int>(std::floor(metres / step));
     };

@@ -56,9 +56,10 @@ double freedom(const std::vector<Trunk>& trunks, const glm::dvec2& eye, const gl
     return least;
 }
 
-/// Returns the fruit body of a plot with the most others beside it, if there is one that is more than a bud.
+/// Returns the fruit body of a plot with the most others beside it, of those that are more than a bud and not above the
+/// eyes of who kneels.
 std::optional<glm::dvec3> middle_of_bodies(const PlotContent& content) {
-    constexpr double least_age = 0.2, beside = 0.5;
+    constexpr double least_age = 0.2, beside = 0.5, highest = 1.0;
     const double half = 0.5 * content.size;
     struct Seen {
         glm::dvec2 at;
@@ -68,7 +69,8 @@ std::optional<glm::dvec3> middle_of_bodies(const PlotContent& content) {
     for (const FruitBody& body : content.bodies) {
         const glm::dvec2 at(metres(body.at.x - content.centre.x),
                             metres(body.at.y - content.centre.y));
-        if (body.stands_at(content.time) && age_at(body, content.time) >= least_age &&
+        if (body.height < highest && body.stands_at(content.time) &&
+            age_at(body, content.time) >= least_age &&
             std::max(std::abs(at.x), std::abs(at.y)) < half)
             seen.push_back({at, body.height});
     }

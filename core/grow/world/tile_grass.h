@@ -36,8 +36,8 @@ inline constexpr int tufts_of_cell = 3;
                                                               int per_cell = tufts_of_cell,
                                                               double rim = 0.0);
 
-/// Tufts on a square of half a metre of a plot, and how far from its border they stand, so that none reaches beyond it,
-/// metres.
+/// Tufts on a square of half a metre of a plot, and how far from its border they are rooted, metres: blades lean over it by
+/// less than that.
 inline constexpr int tufts_of_plot_cell = 12;
 inline constexpr double rim_of_grass = 0.12;
 

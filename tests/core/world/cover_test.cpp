@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/random.h"
+#include "core/problems.h"
 
 namespace sporeprint::world_cover_test {
 namespace {
@@ -168,6 +169,13 @@ TEST(CoverField, IsLinearBetweenNodesAndSharesThemWithItsNeighbours) {
         const double beside = random.uniform(4.3, 5.7);
         EXPECT_EQ(west.at(beside, 0.5 * y), east.at(beside, 0.5 * y));
     }
+}
+
+TEST(CoverField, HasStepsThatAreHalfAMetreTimesAPowerOfTwo) {
+    const WorldBox box{0.0, 0.0, 8.0, 8.0};
+    for (const double step : {0.5, 1.0, 4.0}) EXPECT_GT(cover_lattice(box, 1.0, step).columns, 2);
+    for (const double step : {0.25, 0.4, 0.8, 3.0})
+        EXPECT_THROW(static_cast<void>(cover_lattice(box, 1.0, step)), InvalidInput) << step;
 }
 
 }  // namespace

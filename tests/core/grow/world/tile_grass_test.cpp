@@ -67,7 +67,7 @@ TEST(TileGrass, OfAPlotKeepsItsBudgetAndItsBorders) {
     EXPECT_TRUE(grass_of(content, frame, covered_with_grass(box_of(content), 0.0), 60'000)
                     .positions.empty());
     for (const glm::vec3& at : grass.positions)
-        EXPECT_LE(std::max(std::abs(at.x), std::abs(at.z)), 2.0F);
+        EXPECT_LE(std::max(std::abs(at.x), std::abs(at.z)), 2.0 + rim_of_grass);
 }
 
 TEST(TileGrass, OfAnyDensityHasTheTuftsOfALesserOne) {
