@@ -37,10 +37,16 @@ class TriangleTree {
                                                   const glm::dvec3& direction, double from,
                                                   double to) const;
 
+    /// Returns the memory that it takes.
+    [[nodiscard]] std::size_t bytes() const {
+        return nodes_.size() * sizeof(Node) + triangles_.size() * sizeof(Corners);
+    }
+
   private:
     struct Node {
         glm::vec3 low{0.0F}, high{0.0F};
-        std::uint32_t first = 0;  ///< the first triangle of a leaf, or the second child; the first one follows the node
+        std::uint32_t first =
+            0;  ///< the first triangle of a leaf, or the second child; the first one follows the node
         std::uint32_t count = 0;  ///< triangles of a leaf; 0 for a node with children
     };
     struct Corners {

@@ -9,6 +9,7 @@
 #include "core/math/purposes.h"
 #include "core/problems.h"
 #include "core/world/cell_random.h"
+#include "core/world/flushes.h"
 #include "core/world/fruiting_weather.h"
 #include "core/world/influence.h"
 #include "core/world/tree_growth.h"
@@ -17,20 +18,9 @@ namespace sporeprint {
 
 namespace {
 
-/// Share of good days that a mycelium needs per day, and the days between two flushes.
-constexpr double flush_rate = 0.12;
-constexpr int rest_days = 14;
-constexpr int most_flushes = 8;
-
 /// Bodies that may grow in one rectangle and near it in a year, and those that are drawn for them. Woods of the atlas
 /// have a hundredth of that, a meadow at the greatest abundance a tenth.
 constexpr std::size_t most_sprouts = 600'000, most_drawn = 12'000'000;
-
-/// Less than this allows nothing: without rain, nothing fruits.
-constexpr double least_gate = 0.02;
-
-/// Bodies of a flush emerge within so many days.
-constexpr double emergence_days = 2.0;
 
 /// Ring round a grown host, in radii of its crown, and its variation among hosts (of the logarithm).
 constexpr double ring_per_crown = 0.7, ring_variation = 0.25;
@@ -42,27 +32,10 @@ std::int32_t units(double value) {
     return static_cast<std::int32_t>(std::floor(value * units_of_metre + 0.5));
 }
 
-WorldTime ticks_of_days(double days) {
-    return static_cast<WorldTime>(std::floor(days * ticks_of_day + 0.5));
-}
-
 double distance(WorldPoint a, WorldPoint b) {
     const double dx = metres(a.x) - metres(b.x), dy = metres(a.y) - metres(b.y);
     return std::sqrt(dx * dx + dy * dy);
 }
-
-/// Numbers of at least one: one more than those of a Poisson distribution.
-class AtLeastOne {
-  public:
-    AtLeastOne() = default;
-    explicit AtLeastOne(double mean)
-        : more_(std::max(0.0, mean - 1.0)), none_(exponential(-more_)) {}
-    /// Returns the number of a draw, 0 <= draw < 1.
-    [[nodiscard]] int operator()(double draw) const { return 1 + poisson(more_, none_, draw, 299); }
-
-  private:
-    double more_ = 0.0, none_ = 1.0;
-};
 
 /// The arcs that a ring of fruit bodies is broken into: of equal length, at uneven distances.
 class Arcs {
@@ -170,11 +143,6 @@ class Season {
         double crown;
         double ring = -1.0;  ///< of the species; negative if not yet computed
     };
-    /// A day on which the weather allows the species to fruit.
-    struct GoodDay {
-        int day;
-        double gate, soil_water;
-    };
     static constexpr std::size_t gate_steps = 1024;
 
     /// Returns whether a place is in the rectangle or at most so many metres from it in each direction.
@@ -210,77 +178,33 @@ class Season {
         for (const Genet* genet : of_species_[index_])
             if (ecology.guild == Guild::wood || wide.contains(genet->centre))
                 genets_.push_back(genet);
-        good_days_.clear();
-        for (int day = 0; day < days_of_year; ++day) {
-            const auto i = static_cast<std::size_t>(day);
-            const double gate = conditions_.species[index_][i].all();
-            if (gate >= least_gate) good_days_.push_back({day, gate, conditions_.soil_water[i]});
-        }
+        good_days_ = good_days_of(conditions_, index_);
     }
 
     /// Returns the days, 0 to 364, on which a mycelium begins to fruit.
     std::vector<int> flushes_of(const Genet& genet, const Site& site) const {
-        std::vector<int> days;
-        CellRandom random(fungi_.seed, purposes::flushes, static_cast<std::uint32_t>(input_.year),
-                          genet.id);
-        const double first = random.uniform();
-        double needed = -logarithm(1.0 - first), sum = 0.0;
-        int rested = 0;
-        for (const GoodDay& good : good_days_) {
-            if (good.day < rested || !genet.lives_at(time_of(input_.year, good.day + 1))) continue;
+        return flush_days(fungi_.seed, input_.year, genet, good_days_, [&](const GoodDay& good) {
             const double wetness = fungi_.habitat.wetness_on(site, good.soil_water);
-            const double gate =
-                good.gate * gates_[static_cast<std::size_t>(std::clamp(wetness, 0.0, 1.0) *
-                                                            static_cast<double>(gate_steps))];
-            if (gate < least_gate) continue;
-            sum += flush_rate * gate;
-            if (sum < needed) continue;
-            days.push_back(good.day);
-            if (days.size() == most_flushes) break;
-            const double next = random.uniform();
-            needed = -logarithm(1.0 - next);
-            sum = 0.0;
-            rested = good.day + rest_days;
-        }
-        return days;
+            return gates_[static_cast<std::size_t>(std::clamp(wetness, 0.0, 1.0) *
+                                                   static_cast<double>(gate_steps))];
+        });
     }
 
     /// Calls a function for each cluster that appears at the abundance: with its number and from which abundance on it
     /// is there.
     template <typename Place>
     void for_clusters(double bodies, std::uint64_t key, std::uint32_t flush, const Place& place) {
-        const FruitHabit& fruit = species_->ecology.fruit;
-        const double mean = bodies / (fruit.clusters * fruit.tufts);
-        if (!(mean > 0.0)) return;
-        CellRandom random(fungi_.seed, purposes::fruit_places, flush, key);
-        double appears = 0.0;
-        constexpr std::uint32_t most = 20000;
-        for (std::uint32_t i = 0; i < most; ++i) {
-            const double wait = random.uniform();
-            appears += -logarithm(1.0 - wait) / mean;
-            if (appears > abundance_) return;
-            place(appears,
-                  CellRandom(fungi_.seed, purposes::fruit_places, i + 1, mixed(key, flush, 1)));
-        }
+        sporeprint::for_clusters(fungi_.seed, species_->ecology.fruit, bodies, abundance_, key,
+                                 flush, place);
     }
 
     [[nodiscard]] std::uint32_t flush_number(std::size_t flush) const {
-        return static_cast<std::uint32_t>(input_.year) * 16U + static_cast<std::uint32_t>(flush) +
-               1U;
+        return sporeprint::flush_number(input_.year, flush);
     }
 
     /// Sets the times of a body that belongs to a flush.
     void set_times(FruitBody& body, WorldTime flush, CellRandom& random) const {
-        const BodyLife& life = species_->ecology.body;
-        const double wait = random.uniform(), growth = random.uniform(), rest = random.uniform();
-        body.emerged = flush + ticks_of_days(2.0 * emergence_days * wait);
-        // So that the year of its flush is the year of a body.
-        if (!life.perennial) body.emerged = std::min(body.emerged, end_ - 1);
-        body.matured =
-            body.emerged + std::max(1, ticks_of_days(life.days_to_mature * (0.8 + 0.4 * growth)));
-        body.gone = body.matured + std::max(1, ticks_of_days(life.days_alive * (0.7 + 0.6 * rest)));
-        if (!life.perennial) body.gone = std::min(body.gone, body.emerged + ticks_of_year);
-        body.matured = std::min(body.matured, body.gone - 1);
+        sporeprint::set_times(body, species_->ecology.body, flush, end_, random);
     }
 
     /// Collects the mycelia of the species that a mycelium may meet within so many metres of its margin.

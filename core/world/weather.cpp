@@ -8,6 +8,7 @@
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/problems.h"
+#include "core/world/soil_water.h"
 
 namespace sporeprint {
 
@@ -28,9 +29,6 @@ constexpr double warmest_day = 197.0;
 
 /// Share of the rain that reaches the ground below crowns.
 constexpr double throughfall = 0.8;
-
-/// Soil with less water than this, in mm, holds it back from roots and sun.
-constexpr double readily_lost = 60.0;
 
 /// Draws of one day, which depend on nothing but the world and the day.
 struct DayDraws {
@@ -74,9 +72,7 @@ class Weather {
                           climate_.swing * cosine(2.0 * pi * (day - warmest_) / days_of_year) +
                           deviation_;
         out.evaporation = potential_evaporation(out.temperature, day);
-        soil_water_ +=
-            throughfall * out.rain - out.evaporation * std::min(1.0, soil_water_ / readily_lost);
-        soil_water_ = std::clamp(soil_water_, 0.0, most_soil_water);
+        soil_water_ = soil_water_after(soil_water_, throughfall * out.rain, out.evaporation);
         out.soil_water = soil_water_;
         return out;
     }

@@ -66,7 +66,8 @@ struct Document {
     [[nodiscard]] std::string text() const {
         return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
                R"(,"meshes":[{"primitives":[)" + primitive +
-               R"(]}],"materials":[{"name":"Oak log"},{}],"accessors":[)" + accessor + ',' + indices +
+               R"(]}],"materials":[{"name":"Oak log"},{}],"accessors":[)" + accessor + ',' +
+               indices +
                R"(],"bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],"buffers":[)" +
                buffer + ']' + more + '}';
     }
@@ -120,9 +121,8 @@ TEST(SceneFile, PutsMeshesWhereNodesHaveThem) {
     const Scene scene = document.scene();
     EXPECT_NEAR(area(scene), 4.0, 1e-5);
     const auto has = [&](glm::vec3 wanted) {
-        return std::ranges::any_of(scene.positions, [&](const glm::vec3& at) {
-            return glm::length(at - wanted) < 1e-5F;
-        });
+        return std::ranges::any_of(
+            scene.positions, [&](const glm::vec3& at) { return glm::length(at - wanted) < 1e-5F; });
     };
     // (1, 0, 0) turns to (0, 0, -1), and (0, 0, -1) to (-1, 0, 0).
     for (const glm::vec3 corner :
