@@ -24,7 +24,8 @@ struct SceneTriangle {
 struct Scene {
     std::vector<glm::vec3> positions;
     std::vector<SceneTriangle> triangles;
-    std::vector<std::string> materials;  ///< their names; the first one is of triangles without a material
+    std::vector<std::string>
+        materials;  ///< their names; the first one is of triangles without a material
 
     /// Returns the memory that it takes.
     [[nodiscard]] std::size_t bytes() const;

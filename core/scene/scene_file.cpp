@@ -120,8 +120,7 @@ class SceneReader {
                            std::to_string(most_scene_json) + " are read");
         std::vector<Problem> problems;
         document_ = parse(json, problems);
-        if (!problems.empty())
-            refuse(problems.front().path, problems.front().message);
+        if (!problems.empty()) refuse(problems.front().path, problems.front().message);
         if (!document_.is_object()) refuse("", "the JSON chunk is no object");
         const std::size_t end = 20 + json.size();
         if (file.size() >= end + 8) {
@@ -206,7 +205,8 @@ class SceneReader {
     }
 
     /// Returns an item of a list of the document.
-    [[nodiscard]] const Value& item(const char* list, std::size_t index, const std::string& where) const {
+    [[nodiscard]] const Value& item(const char* list, std::size_t index,
+                                    const std::string& where) const {
         const Value* const items = document_.find(list);
         if (items == nullptr || !items->is_array() || index >= items->items().size() ||
             !items->items()[index].is_object())
@@ -280,7 +280,8 @@ class SceneReader {
         const Value* const primitives = item("meshes", index, where).find("primitives");
         if (primitives == nullptr || !primitives->is_array()) refuse(where, "has no primitives");
         for (std::size_t i = 0; i < primitives->items().size(); ++i)
-            add_primitive(primitives->items()[i], matrix, where + "/primitives/" + std::to_string(i));
+            add_primitive(primitives->items()[i], matrix,
+                          where + "/primitives/" + std::to_string(i));
     }
 
     void add_primitive(const Value& primitive, const glm::dmat4& matrix, const std::string& where) {
@@ -300,8 +301,8 @@ class SceneReader {
         const std::size_t first = scene_.positions.size();
         if (first + places.count > 3 * most_scene_triangles) refuse_size();
         for (std::size_t i = 0; i < places.count; ++i) {
-            const glm::dvec3 at(matrix * glm::dvec4(places.at(i, 0), places.at(i, 1),
-                                                    places.at(i, 2), 1.0));
+            const glm::dvec3 at(matrix *
+                                glm::dvec4(places.at(i, 0), places.at(i, 1), places.at(i, 2), 1.0));
             for (int axis = 0; axis < 3; ++axis)
                 if (!(std::abs(at[axis]) <= 1e6))
                     refuse(where, "vertex " + std::to_string(i) + " lies at " +
