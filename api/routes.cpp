@@ -8,6 +8,7 @@
 #include "api/products/mushrooms.h"
 #include "api/products/offspring.h"
 #include "api/products/photos.h"
+#include "api/products/scenes/routes.h"
 #include "api/products/sets.h"
 #include "api/products/terrains.h"
 #include "api/products/traces.h"
@@ -19,24 +20,10 @@ namespace sporeprint::api {
 
 const RouteTable& route_table() {
     static const RouteTable table({
-        page_routes,
-        species_routes,
-        mushroom_routes,
-        morph_routes,
-        offspring_routes,
-        colony_routes,
-        leaf_routes,
-        tree_routes,
-        world_routes,
-        terrain_routes,
-        set_routes,
-        photo_routes,
-        trace_routes,
-        library_routes,
-        token_routes,
-        inspection_routes,
-        reference_routes,
-        health_routes,
+        page_routes,   species_routes,    mushroom_routes,  morph_routes,  offspring_routes,
+        colony_routes, leaf_routes,       tree_routes,      world_routes,  terrain_routes,
+        scene_routes,  set_routes,        photo_routes,     trace_routes,  library_routes,
+        token_routes,  inspection_routes, reference_routes, health_routes,
     });
     return table;
 }

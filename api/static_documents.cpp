@@ -161,7 +161,7 @@ Value about(const DocumentInputs& inputs) {
     for (const RouteGroup& group : inputs.routes.groups())
         if (group.add_links) group.add_links(links, inputs.atlas);
     if (inputs.has_library) links.set("library", "/v1/library");
-    if (inputs.has_terrains) links.set("terrains", "/v1/terrains");
+    if (inputs.has_terrains) links.set("terrains", "/v1/terrains").set("scenes", "/v1/scenes");
     Value root = Value::object();
     root.set("name", "sporeprint")
         .set("version", SPOREPRINT_VERSION)

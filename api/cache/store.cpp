@@ -5,6 +5,8 @@
 #include "core/atlas/atlas.h"
 #include "core/grow/tree.h"
 #include "core/grow/world/plot_bodies.h"
+#include "core/scene/scene_season.h"
+#include "core/scene/scene_store.h"
 #include "core/silhouette/morph_set.h"
 #include "core/world/world.h"
 
@@ -31,6 +33,15 @@ std::size_t weight_of(const BlockPart& part) {
     if (const SharedMycelia* mycelia = std::get_if<SharedMycelia>(&part))
         return (*mycelia)->bytes();
     return std::get<SharedSeason>(part)->bytes();
+}
+
+/// The shape of the largest scene takes 60 MB, of which a cache holds an eighth at most.
+constexpr std::size_t scene_cache_bytes = std::size_t{512} << 20U;
+
+std::size_t weight_of(const ScenePart& part) {
+    if (const SharedShape* shape = std::get_if<SharedShape>(&part)) return (*shape)->bytes();
+    const SceneFungi& fungi = *std::get<SharedFungi>(part);
+    return fungi.bytes() + fungi.habitat->bytes();
 }
 
 /// The values of a species take about twice the bytes of its text.
@@ -72,9 +83,11 @@ Store::Store(const ServiceOptions& options)
               [](const SharedGround& ground) { return ground->bytes(); }),
       worlds(options.world_cache_bytes / 4,
              [](const SharedWorld& world) { return world->bytes(); }),
-      blocks(options.world_cache_bytes / 2, [](const BlockPart& part) { return weight_of(part); }) {
+      blocks(options.world_cache_bytes / 2, [](const BlockPart& part) { return weight_of(part); }),
+      scene_parts(scene_cache_bytes, [](const ScenePart& part) { return weight_of(part); }) {
     if (options.store.empty()) return;
-    // First the one within, which the other one then leaves alone.
+    // First those within, which the other one then leaves alone.
+    scenes.emplace(options.store / "scenes", options.terrain_bytes, options.store_event);
     terrains.emplace(options.store / "terrains", options.terrain_bytes, options.store_event);
     directory.emplace(options.store, options.store_bytes, options.store_event);
 }
@@ -148,6 +161,25 @@ SharedTerrain stored_terrain(Store& store, std::string_view id) {
     std::optional<TerrainMap> terrain;
     if (file) terrain = terrain_in({file->data(), file->size});
     return terrain ? std::make_shared<const TerrainMap>(std::move(*terrain)) : nullptr;
+}
+
+SharedScene stored_scene(Store& store, std::string_view id) {
+    const std::optional<Slice> file = store.scenes ? store.scenes->find(id) : std::nullopt;
+    std::optional<Scene> scene;
+    if (file) scene = scene_in({file->data(), file->size});
+    return scene ? std::make_shared<const Scene>(std::move(*scene)) : nullptr;
+}
+
+SharedShape shape_in(Store& store, const std::string& key, const std::function<SharedShape()>& make,
+                     const std::stop_token& stop) {
+    Requested requested;
+    return ask<SceneShape>(store.scene_parts, key, make, stop, requested);
+}
+
+SharedFungi fungi_in(Store& store, const std::string& key, const std::function<SharedFungi()>& make,
+                     const std::stop_token& stop) {
+    Requested requested;
+    return ask<SceneFungi>(store.scene_parts, key, make, stop, requested);
 }
 
 std::string cache_member(std::string_view cache, bool hit, bool stored) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,6 +19,12 @@
 #include "api/http/response_builder.h"
 #include "api/http/service_options.h"
 #include "core/grow/execution_context.h"
+
+namespace sporeprint {
+struct Scene;
+struct SceneShape;
+struct SceneFungi;
+}  // namespace sporeprint
 
 namespace sporeprint::api {
 
@@ -37,6 +44,13 @@ using SharedBody = std::shared_ptr<const BodyShape>;
 
 /// The values of the cache of blocks of worlds, all within one budget.
 using BlockPart = std::variant<SharedBlock, SharedMycelia, SharedSeason, SharedTree, SharedBody>;
+
+using SharedScene = std::shared_ptr<const Scene>;
+using SharedShape = std::shared_ptr<const SceneShape>;
+using SharedFungi = std::shared_ptr<const SceneFungi>;
+
+/// The values of the cache of uploaded scenes: their shapes, and their fungi in a climate.
+using ScenePart = std::variant<SharedShape, SharedFungi>;
 
 /// The values of the image cache: encoded files, and the paintings from which images of mixes are
 /// blended. Both share one budget.
@@ -58,8 +72,11 @@ struct Store {
     ComputingCache<SharedGround> grounds;  ///< a quarter of the bytes for worlds
     ComputingCache<SharedWorld> worlds;    ///< likewise
     ComputingCache<BlockPart> blocks;      ///< the rest; also the meshes of trees and fruit bodies
+    ComputingCache<ScenePart> scene_parts;
     std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     std::optional<DirectoryStore> terrains;   ///< likewise: files of terrains by their ids
+    std::optional<DirectoryStore>
+        scenes;  ///< likewise: files of scenes, as many bytes as of terrains
     Counters counters;
     Photos photos{std::size_t{64} << 20U};
     /// A photograph is decoded by the holder of one: decoders take up to 200 MB each, so two run at once,
@@ -85,6 +102,17 @@ struct CacheMiss {
 
 /// Returns a terrain that is stored, or null.
 [[nodiscard]] SharedTerrain stored_terrain(Store& store, std::string_view id);
+
+/// Returns a scene that is stored, or null.
+[[nodiscard]] SharedScene stored_scene(Store& store, std::string_view id);
+
+/// Returns the shape of a scene or its fungi, from the cache of scenes or computed.
+[[nodiscard]] SharedShape shape_in(Store& store, const std::string& key,
+                                   const std::function<SharedShape()>& make,
+                                   const std::stop_token& stop);
+[[nodiscard]] SharedFungi fungi_in(Store& store, const std::string& key,
+                                   const std::function<SharedFungi()>& make,
+                                   const std::stop_token& stop);
 
 /// Returns the result of a lookup as a member of Cache-Status (RFC 9211): "sporeprint-images; hit",
 /// or for a miss "sporeprint-images; fwd=miss; stored".

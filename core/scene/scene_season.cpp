@@ -184,7 +184,7 @@ class SceneSeason {
         if (species_->ecology.guild == Guild::wood) return 1.0;
         const std::uint32_t piece = habitat_.substrates.pieces[surfel];
         if (piece == SurfelSubstrates::no_piece) return ring_per_area;
-        const WoodPiece& tree = habitat_.substrates.wood[piece];
+        const SceneWood& tree = habitat_.substrates.wood[piece];
         CellRandom of_tree(habitat_.conditions.seed, purposes::mycelium_arcs, species_->stream,
                            piece_id(piece));
         const double wide = of_tree.bell();

@@ -232,7 +232,7 @@ std::vector<MaterialSoil> soils_of(std::span<const std::string> materials,
     return out;
 }
 
-double root_reach_of(const WoodPiece& tree) {
+double root_reach_of(const SceneWood& tree) {
     return std::min(longest_roots, roots_per_crown * crown_radius(tree.height()));
 }
 
@@ -256,7 +256,7 @@ bool SurfelSubstrates::suits(const FungusSpecies& species, std::size_t surfel, d
 
 std::size_t SurfelSubstrates::bytes() const {
     return sizeof(*this) + soils.size() * (sizeof(Soil) + 2 * sizeof(std::uint32_t)) +
-           wood.size() * sizeof(WoodPiece);
+           wood.size() * sizeof(SceneWood);
 }
 
 SurfelSubstrates substrates_of(const Surfels& surfels, const SurfelGraph& graph,
@@ -287,14 +287,14 @@ SurfelSubstrates substrates_of(const Surfels& surfels, const SurfelGraph& graph,
             out.wood.push_back({at, at, 0.0, out.trees[i], false});
         }
         out.pieces[i] = piece;
-        WoodPiece& wood = out.wood[piece];
+        SceneWood& wood = out.wood[piece];
         wood.low = glm::min(wood.low, at);
         wood.high = glm::max(wood.high, at);
         wood.area += static_cast<double>(surfels[i].area);
     }
     std::vector<std::uint32_t> standing;
     for (std::uint32_t i = 0; i < out.wood.size(); ++i) {
-        WoodPiece& wood = out.wood[i];
+        SceneWood& wood = out.wood[i];
         const double wide = std::max(wood.high.x - wood.low.x, wood.high.z - wood.low.z);
         wood.stands = wood.height() >= std::max(least_standing, standing_ratio * wide);
         if (wood.stands) standing.push_back(i);
@@ -304,7 +304,7 @@ SurfelSubstrates substrates_of(const Surfels& surfels, const SurfelGraph& graph,
         const glm::dvec3 at(surfels[i].at);
         double least = std::numeric_limits<double>::max();
         for (const std::uint32_t number_of_tree : standing) {
-            const WoodPiece& tree = out.wood[number_of_tree];
+            const SceneWood& tree = out.wood[number_of_tree];
             const double x = at.x - 0.5 * (tree.low.x + tree.high.x),
                          z = at.z - 0.5 * (tree.low.z + tree.high.z);
             const double square = x * x + z * z, reach = root_reach_of(tree);

@@ -86,7 +86,7 @@ struct NamedSoil {
                                                  std::vector<Problem>& problems);
 
 /// A connected piece of wood of a scene.
-struct WoodPiece {
+struct SceneWood {
     glm::dvec3 low{0.0}, high{0.0};  ///< its box
     double area = 0.0;               ///< of its bark, m²
     std::uint32_t trees = 0;         ///< that it may be of
@@ -104,7 +104,7 @@ struct SurfelSubstrates {
         trees;  ///< kinds that a surfel is of, or that it has roots and litter of
     std::vector<std::uint32_t>
         pieces;  ///< of wood, or the nearest standing one whose roots reach the ground here
-    std::vector<WoodPiece> wood;
+    std::vector<SceneWood> wood;
 
     /// Returns whether a species lives on what is at a surfel.
     ///
@@ -125,6 +125,6 @@ struct SurfelSubstrates {
                                              std::span<const MaterialSoil> soils);
 
 /// Returns how far from the axis of a standing tree its roots reach, metres.
-[[nodiscard]] double root_reach_of(const WoodPiece& tree);
+[[nodiscard]] double root_reach_of(const SceneWood& tree);
 
 }  // namespace sporeprint

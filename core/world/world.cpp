@@ -11,6 +11,7 @@
 #include "core/params/messages.h"
 #include "core/problems.h"
 #include "core/world/tree_growth.h"
+#include "core/world/world_species.h"
 
 namespace sporeprint {
 
@@ -46,11 +47,6 @@ Coordinate coordinate_of(const World& world, std::int32_t units) {
     return coordinate_at(world.ground->grid, std::clamp(metres(units), -half, half));
 }
 
-/// Returns months half a year later.
-std::uint16_t southern(std::uint16_t months) {
-    return static_cast<std::uint16_t>(((months << 6U) | (months >> 6U)) & 0xFFFU);
-}
-
 /// Sets the species of a world, without their spread.
 void add_species(World& world, const WorldLookup& lookup) {
     std::vector<Problem> problems;
@@ -58,27 +54,8 @@ void add_species(World& world, const WorldLookup& lookup) {
     std::vector<std::string> kinds;
     kinds.reserve(world.stand.kinds.size());
     for (const StandKind& kind : world.stand.kinds) kinds.push_back(kind.id);
-    world.species.reserve(world.species_ids.size());
-    for (const std::string& id : world.species_ids) {
-        std::optional<SpeciesRecord> record = lookup.species(id);
-        if (!record) {
-            report(problems, "fungi.species", "there is no species " + in_quotes(id));
-            continue;
-        }
-        if (world.edits)
-            if (const auto own = world.edits->ecologies.find(id);
-                own != world.edits->ecologies.end()) {
-                record->ecology = own->second.ecology;
-                record->months = bits_of_months(own->second.months);
-            }
-        FungusSpecies species;
-        species.ecology = std::move(record->ecology);
-        species.stream = stream_of(id);
-        species.months = is_southern(world.params) ? southern(record->months) : record->months;
-        species.kinds = kinds_of(species.ecology, kinds);
-        species.cap_radius = record->cap_radius;
-        world.species.push_back(std::move(species));
-    }
+    world.species =
+        fungi_of(world.species_ids, world.params.climate, kinds, lookup, world.edits, problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 

@@ -291,20 +291,8 @@ void add_parameters(Value& parameters, const Route& route, const Atlas& atlas) {
     const auto has = [&](const char* capture) {
         return pattern.find(capture) != std::string_view::npos;
     };
-    if (has("{world}"))
-        parameters.push(path_parameter(
-            "world",
-            "Id of a preset, then what differs from it as ,name=value by the names of "
-            "/v1/worlds/schema, last perhaps ,v= and a version token: today's makes the answer "
-            "immutable, any other is 410 with the canonical address of today's.",
-            object({{"type", "string"}, {"maxLength", longest_world}}),
-            atlas.worlds().front().id.string() + ",seed=7"));
-    if (has("{time}"))
-        parameters.push(path_parameter(
-            "time",
-            "A year from y0 to y200, with a day from d1 to d365 for "
-            "what changes from day to day.",
-            object({{"type", "string"}, {"pattern", "^y\\d{1,3}(d\\d{1,3})?$"}}), "y80d270"));
+    if (has("{world}")) parameters.push(world_path_parameter(atlas));
+    if (has("{time}")) parameters.push(time_path_parameter());
     if (has("{map}"))
         parameters.push(path_parameter(
             "map", "Which map.",
@@ -369,6 +357,24 @@ void add_bodies(Value& bodies, const Atlas& atlas) {
 }
 
 }  // namespace
+
+Value world_path_parameter(const Atlas& atlas) {
+    return path_parameter(
+        "world",
+        "Id of a preset, then what differs from it as ,name=value by the names of "
+        "/v1/worlds/schema, last perhaps ,v= and a version token: today's makes the answer "
+        "immutable, any other is 410 with the canonical address of today's.",
+        object({{"type", "string"}, {"maxLength", longest_world}}),
+        atlas.worlds().front().id.string() + ",seed=7");
+}
+
+Value time_path_parameter() {
+    return path_parameter("time",
+                          "A year from y0 to y200, with a day from d1 to d365 for "
+                          "what changes from day to day.",
+                          object({{"type", "string"}, {"pattern", "^y\\d{1,3}(d\\d{1,3})?$"}}),
+                          "y80d270");
+}
 
 const RouteGroup world_routes = {
     .tag = "worlds",

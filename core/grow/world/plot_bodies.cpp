@@ -66,10 +66,15 @@ int part_of_life(double age, int parts) {
 
 BodyLook look_of_body(const PlotContent& content, std::size_t species, double age,
                       std::uint32_t seed, const Atlas& atlas) {
+    return look_of_body(content.species, species, age, seed, atlas);
+}
+
+BodyLook look_of_body(const std::vector<std::string>& ids, std::size_t species, double age,
+                      std::uint32_t seed, const Atlas& atlas) {
     const std::string path = "/species/" + std::to_string(species);
-    if (species >= content.species.size())
+    if (species >= ids.size())
         throw InvalidInput(path, "a body is of a species that the world does not have");
-    const std::string& id = content.species[species];
+    const std::string& id = ids[species];
     const AtlasEntry* const entry = atlas.find(id);
     if (entry == nullptr) throw InvalidInput(path, "there is no species '" + id + "'");
     BodyLook look;
@@ -104,36 +109,35 @@ std::shared_ptr<const BodyShape> body_shape(const MushroomSpec& spec, const Atla
     });
 }
 
-PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,
-                     std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
-    std::vector<const FruitBody*> standing;
-    for (const FruitBody& body : content.bodies)
-        if (body.stands_at(content.time) && frame.has(body.at)) standing.push_back(&body);
+PlotBodies shown_bodies(const std::vector<const FruitBody*>& bodies, WorldTime time,
+                        const std::vector<std::string>& species, const BodyPlace& place,
+                        const BodyDetail& detail, const Atlas& atlas,
+                        const ExecutionContext& execution) {
     PlotBodies made;
-    const ShapeChoice choice = chosen(standing, content.time);
-    BearingTrunks trunks(content, frame);
+    const ShapeChoice choice = chosen(bodies, time);
     std::map<ShapeKey, std::size_t> shape_of;
     std::vector<bool> is_lateral;
-    made.bodies.reserve(standing.size());
-    for (const FruitBody* body : standing) {
-        const ShapeKey key = key_of(*body, content.time, choice);
+    made.bodies.reserve(bodies.size());
+    for (std::size_t number = 0; number < bodies.size(); ++number) {
+        const FruitBody* const body = bodies[number];
+        const ShapeKey key = key_of(*body, time, choice);
         const auto [found, is_new] = shape_of.try_emplace(key, made.shapes.size());
         if (is_new) {
             throw_if_cancelled(execution);
             auto [spec, lateral] =
-                look_of_body(content, body->species, (std::get<1>(key) + 0.5) / choice.parts,
+                look_of_body(species, body->species, (std::get<1>(key) + 0.5) / choice.parts,
                              1 + std::get<2>(key), atlas);
-            spec.params.lod = options.lod;
-            spec.params.textures = options.textures;
-            spec.params.file = options.file;
+            spec.params.lod = detail.lod;
+            spec.params.textures = detail.textures;
+            spec.params.file = detail.file;
             is_lateral.push_back(lateral);
             Individual individual = resolve(spec, atlas, execution.caches.morphs);
             made.shapes.push_back({std::move(spec), std::move(individual), {}, {}});
         }
-        made.bodies.push_back({found->second, body->id, body->species, age_at(*body, content.time),
-                               place_of(*body, frame, is_lateral[found->second], trunks)});
+        made.bodies.push_back({found->second, body->id, body->species, age_at(*body, time),
+                               place(number, is_lateral[found->second])});
     }
-    for (int lod = options.lod; lod <= last_lod; ++lod) {
+    for (int lod = detail.lod; lod <= last_lod; ++lod) {
         std::vector<std::uint64_t> triangles;
         triangles.reserve(made.shapes.size());
         for (PlotBodies::Shape& shape : made.shapes) {
@@ -142,7 +146,7 @@ PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, con
         }
         std::uint64_t all = 0;
         for (const PlotBodies::Placed& body : made.bodies) all += triangles[body.shape];
-        if (all <= most) break;
+        if (all <= detail.most) break;
     }
     for (PlotBodies::Shape& shape : made.shapes) {
         throw_if_cancelled(execution);
@@ -150,6 +154,19 @@ PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, con
         shape.name = level_name(product_name(shape.spec), shape.spec.params.lod);
     }
     return made;
+}
+
+PlotBodies bodies_of(const PlotContent& content, const PlotOptions& options, const PlotFrame& frame,
+                     std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
+    std::vector<const FruitBody*> standing;
+    for (const FruitBody& body : content.bodies)
+        if (body.stands_at(content.time) && frame.has(body.at)) standing.push_back(&body);
+    BearingTrunks trunks(content, frame);
+    const auto place = [&](std::size_t number, bool is_lateral) {
+        return place_of(*standing[number], frame, is_lateral, trunks);
+    };
+    return shown_bodies(standing, content.time, content.species, place,
+                        {options.lod, options.textures, options.file, most}, atlas, execution);
 }
 
 }  // namespace sporeprint

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,6 +50,10 @@ struct BodyLook {
 [[nodiscard]] BodyLook look_of_body(const PlotContent& content, std::size_t species, double age,
                                     std::uint32_t seed, const Atlas& atlas);
 
+/// Returns the individual that shows bodies of a species of a list.
+[[nodiscard]] BodyLook look_of_body(const std::vector<std::string>& ids, std::size_t species,
+                                    double age, std::uint32_t seed, const Atlas& atlas);
+
 /// An individual and its mesh at one level of detail, which all tiles share that show it.
 struct BodyShape {
     Individual individual;
@@ -64,6 +69,29 @@ struct BodyShape {
 [[nodiscard]] std::shared_ptr<const BodyShape> body_shape(const MushroomSpec& spec,
                                                           const Atlas& atlas,
                                                           const ExecutionContext& execution);
+
+/// How bodies are shown.
+struct BodyDetail {
+    int lod = 1;
+    Textures textures = Textures::embedded;
+    FileOptions file;
+    std::uint64_t most =
+        0;  ///< number of triangles that they may have; fewer ones than at that level of detail
+};
+
+/// Returns the place of a body, by its number among those that are shown.
+///
+/// is_lateral  its model grows from its side
+using BodyPlace = std::function<GlbTransform(std::size_t number, bool is_lateral)>;
+
+/// Returns the individuals that show bodies at a moment, and where each stands.
+///
+/// species  ids of the species
+/// throws   InvalidInput (path "/species") for an unknown species
+[[nodiscard]] PlotBodies shown_bodies(const std::vector<const FruitBody*>& bodies, WorldTime time,
+                                      const std::vector<std::string>& species,
+                                      const BodyPlace& place, const BodyDetail& detail,
+                                      const Atlas& atlas, const ExecutionContext& execution);
 
 /// Returns the bodies that stand on a plot.
 ///

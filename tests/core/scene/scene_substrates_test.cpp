@@ -91,7 +91,7 @@ TEST(SceneSubstrates, KnowWhichWoodStandsAndHowFarItsRootsReach) {
     const SceneHabitat habitat = scenes::habitat_in(shape);
     const SurfelSubstrates& substrates = habitat.substrates;
     int standing = 0, lying = 0;
-    for (const WoodPiece& piece : substrates.wood)
+    for (const SceneWood& piece : substrates.wood)
         if (piece.area > 0.5) ++(piece.stands ? standing : lying);
     EXPECT_EQ(standing, 1);
     EXPECT_EQ(lying, 1);
@@ -104,7 +104,7 @@ TEST(SceneSubstrates, KnowWhichWoodStandsAndHowFarItsRootsReach) {
     const auto at = [&](double x, double z) {
         return shape->surfels.nearest({x, 0.0, z}, {0.0, 1.0, 0.0}, 1.0).value();
     };
-    WoodPiece tree;
+    SceneWood tree;
     tree.high.y = 3.1;
     const double reach = root_reach_of(tree);
     ASSERT_GT(reach, 0.5);
