@@ -20,7 +20,36 @@ constexpr std::size_t first_autumn_day = 243, last_autumn_day = 303, half_a_year
 /// The longest day of the north; in the south it is half a year later.
 constexpr int midsummer = 172;
 
+/// Share of its water that wood conducts to all of a piece, and how slowly it dries, compared with soil.
+constexpr double conducted_share = 0.5, drying_of_wood = 0.4;
+
+/// Returns the water of surfels after wood has conducted it.
+std::vector<float> conducted(const Surfels& surfels, const SurfelSubstrates& substrates,
+                             const std::vector<float>& water) {
+    std::vector<double> sums(substrates.wood.size(), 0.0);
+    const auto is_wood = [&](std::size_t i) { return substrates.soils[i] == Soil::wood; };
+    for (std::size_t i = 0; i < water.size(); ++i)
+        if (is_wood(i))
+            sums[substrates.pieces[i]] +=
+                static_cast<double>(water[i]) * static_cast<double>(surfels[i].area);
+    std::vector<float> out = water;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (!is_wood(i)) continue;
+        const SceneWood& wood = substrates.wood[substrates.pieces[i]];
+        const double mean = wood.area > 0.0 ? sums[substrates.pieces[i]] / wood.area : 0.0;
+        out[i] = static_cast<float>((1.0 - conducted_share) * static_cast<double>(water[i]) +
+                                    conducted_share * mean);
+    }
+    return out;
+}
+
 }  // namespace
+
+WaterSupply SceneHabitat::supply(std::size_t surfel) const {
+    const double drying = drying_of(sites[surfel].light);
+    return {static_cast<double>(water[surfel]),
+            substrates.soils[surfel] == Soil::wood ? drying_of_wood * drying : drying};
+}
 
 std::size_t SceneShape::bytes() const {
     return sizeof(*this) + scene->bytes() + surfels.bytes() + graph.bytes() +
@@ -42,8 +71,9 @@ double SceneHabitat::suitability(const FungusSpecies& species, std::size_t surfe
 }
 
 std::size_t SceneHabitat::bytes() const {
-    return sizeof(*this) + substrates.bytes() + rain.size() * sizeof(float) + run_off.bytes() +
-           sites.size() * sizeof(Site) + conditions.soils.size() * sizeof(MaterialSoil);
+    return sizeof(*this) + substrates.bytes() + (rain.size() + water.size()) * sizeof(float) +
+           run_off.bytes() + sites.size() * sizeof(Site) +
+           conditions.soils.size() * sizeof(MaterialSoil);
 }
 
 SurfaceWater water_of(const SceneConditions& conditions, int year) {
@@ -63,6 +93,7 @@ SceneHabitat habitat_of(std::shared_ptr<const SceneShape> shape, SceneConditions
     out.substrates = substrates_of(surfels, out.shape->graph, out.conditions.soils);
     out.rain = rain_on(surfels, out.shape->tree, wind_rose(climate), out.conditions.seed, parallel);
     out.run_off = run_off_of(surfels, out.shape->graph, out.shape->tree, out.substrates, out.rain);
+    out.water = conducted(surfels, out.substrates, out.run_off.water);
     const SunDay sun = sun_of(radians(climate.latitude_deg),
                               is_southern ? midsummer + static_cast<int>(half_a_year) : midsummer);
     const std::vector<float> direct = sun_on(surfels, out.shape->tree, sun, parallel);

@@ -59,13 +59,13 @@ struct SceneHabitat {
     SurfelSubstrates substrates;
     std::vector<float> rain;  ///< rain_on() the surfels
     RunOff run_off;
+    std::vector<float>
+        water;  ///< of the run-off, of which wood conducts a part from where it is wet to where it is not
     std::vector<Site> sites;  ///< light in midsummer, wetness in autumn
 
     [[nodiscard]] const Surfels& surfels() const { return shape->surfels; }
     /// Returns what makes a surfel wet and dry.
-    [[nodiscard]] WaterSupply supply(std::size_t surfel) const {
-        return {static_cast<double>(run_off.water[surfel]), sites[surfel].light};
-    }
+    [[nodiscard]] WaterSupply supply(std::size_t surfel) const;
     /// Returns how well a species could live at a surfel, 0..1: 0 where it is not on what it lives on.
     [[nodiscard]] double suitability(const FungusSpecies& species, std::size_t surfel) const;
     /// Returns the memory that it takes, the shape not counted.

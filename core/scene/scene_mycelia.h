@@ -17,7 +17,8 @@ namespace sporeprint {
 /// A mycelium on the surface of a scene.
 struct SceneGenet {
     Genet genet;               ///< its host is piece_id() of the wood that it lives on or with
-    std::uint32_t surfel = 0;  ///< its centre
+    std::uint32_t surfel = 0;  ///< its centre, or that of the rim where it enters the scene first
+    bool is_from_outside = false;  ///< its centre lies beside the scene
     bool operator==(const SceneGenet&) const = default;
 };
 
@@ -28,7 +29,7 @@ struct SceneGenet {
 /// the first ones of a later year.
 ///
 /// They begin at random places of what the species lives on, at random times, on each square metre as often as in
-/// worlds; and grow up where spores have arrived, the place is suitable, and no older mycelium of the species has it.
+/// worlds, and on the ground beside the scene, which is taken to be like its own; and grow up where spores have arrived, the place is suitable, and no older mycelium of the species has it.
 ///
 /// index   of the species, noted in its mycelia
 /// throws  Impossible (path "/scene") if there are too many

@@ -25,18 +25,17 @@ struct SurfaceWater::Place {
 };
 
 SurfaceWater::SurfaceWater(const WeatherYear& before, const WeatherYear& year) {
-    days_.resize(rains * lights);
-    sums_.resize(rains * lights);
+    days_.resize(rains * dryings);
+    sums_.resize(rains * dryings);
     for (std::size_t r = 0; r < rains; ++r)
-        for (std::size_t l = 0; l < lights; ++l) {
-            const double rain = rain_of(r, rains),
-                         drying = drying_of(static_cast<double>(l) / (lights - 1));
+        for (std::size_t l = 0; l < dryings; ++l) {
+            const double rain = rain_of(r, rains), drying = static_cast<double>(l) / (dryings - 1);
             double water = 0.5 * most_soil_water;
             const auto pass = [&](const WeatherDay& day) {
                 water = soil_water_after(water, rain * day.rain, drying * day.evaporation);
             };
             for (const WeatherDay& day : before) pass(day);
-            const std::size_t bucket = r * lights + l;
+            const std::size_t bucket = r * dryings + l;
             for (std::size_t day = 0; day < year.size(); ++day) {
                 pass(year[day]);
                 days_[bucket][day] = static_cast<float>(water);
@@ -47,14 +46,14 @@ SurfaceWater::SurfaceWater(const WeatherYear& before, const WeatherYear& year) {
 
 SurfaceWater::Place SurfaceWater::place_of(const WaterSupply& supply) {
     const double rain = std::clamp(supply.rain, 0.0, most_rain),
-                 light = std::clamp(supply.light, 0.0, 1.0) * (lights - 1);
+                 light = std::clamp(supply.drying, 0.0, 1.0) * (dryings - 1);
     std::size_t r = 0;
     while (r + 2 < rains && rain_of(r + 1, rains) <= rain) ++r;
     const double low = rain_of(r, rains), high = rain_of(r + 1, rains);
-    const auto l = std::min(static_cast<std::size_t>(light), lights - 2);
+    const auto l = std::min(static_cast<std::size_t>(light), dryings - 2);
     const double t = (rain - low) / (high - low), u = light - static_cast<double>(l);
-    const std::size_t first = r * lights + l;
-    return {{first, first + 1, first + lights, first + lights + 1},
+    const std::size_t first = r * dryings + l;
+    return {{first, first + 1, first + dryings, first + dryings + 1},
             {(1.0 - t) * (1.0 - u), (1.0 - t) * u, t * (1.0 - u), t * u}};
 }
 

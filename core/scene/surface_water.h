@@ -11,8 +11,8 @@ namespace sporeprint {
 
 /// What makes a surfel wet and dry.
 struct WaterSupply {
-    double rain = 1.0;   ///< what reaches it, as a multiple of the rain on open level ground
-    double light = 1.0;  ///< share of the light of the open sky, which dries it
+    double rain = 1.0;    ///< what reaches it, as a multiple of the rain on open level ground
+    double drying = 1.0;  ///< share of what sun and air could take that dries it (drying_of())
 };
 
 /// The wetness of surfaces in a year, for all supplies.
@@ -32,11 +32,11 @@ class SurfaceWater {
     [[nodiscard]] double mean(const WaterSupply& supply, std::size_t first, std::size_t last) const;
 
   private:
-    static constexpr std::size_t rains = 17, lights = 9;
+    static constexpr std::size_t rains = 17, dryings = 9;
     struct Place;
     [[nodiscard]] static Place place_of(const WaterSupply& supply);
 
-    std::vector<std::array<float, days_of_year>> days_;  ///< [rain][light]
+    std::vector<std::array<float, days_of_year>> days_;  ///< [rain][drying]
     std::vector<std::array<double, days_of_year + 1>> sums_;
 };
 

@@ -40,7 +40,7 @@ std::vector<float> scene_map(const SceneFungi& fungi, const SceneMapChoice& choi
         case SceneMap::rain:
             return habitat.rain;
         case SceneMap::water:
-            return habitat.run_off.water;
+            return habitat.water;
         case SceneMap::probability:
             return scene_probability(fungi, choice.species, choice.year);
         case SceneMap::light: {

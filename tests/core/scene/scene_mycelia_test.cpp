@@ -122,6 +122,33 @@ TEST(SceneMycelia, DoNotBeginWhereAnOlderOneIs) {
         }
 }
 
+TEST(SceneMycelia, ComeInFromOutsideAsPartsOfCircles) {
+    FungusSpecies species = scenes::grass_species();
+    species.ecology.genet.reach = 12.0;
+    species.ecology.genet.speed = 0.6;
+    const Grown grown(shape_of(scenes::Made().floor(-3, -3, 3, 3, 0, "grass")), species);
+    const auto genets = grown.until(100);
+    int outside = 0;
+    for (int year = 0; year <= 100; year += 20) {
+        const Territory territory = territory_of(grown.habitat, species, genets, time_of(year));
+        for (std::uint32_t i = 0; i < territory.owner.size(); ++i) {
+            if (territory.owner[i] == Territory::nobody) continue;
+            const SceneGenet& owner = genets[territory.owner[i]];
+            if (!owner.is_from_outside) continue;
+            ++outside;
+            const Surfel& surfel = grown.habitat.surfels()[i];
+            const double x = static_cast<double>(surfel.at.x) - metres(owner.genet.centre.x),
+                         y = -static_cast<double>(surfel.at.z) - metres(owner.genet.centre.y);
+            const double away = std::sqrt(x * x + y * y);
+            EXPECT_GE(static_cast<double>(territory.distance[i]), away - 1e-3);
+            EXPECT_LE(static_cast<double>(territory.distance[i]), 1.12 * away + 0.1);
+            EXPECT_LE(static_cast<double>(territory.distance[i]),
+                      radius_at(owner.genet, time_of(year)) + 1e-3);
+        }
+    }
+    EXPECT_GT(outside, 1000);
+}
+
 TEST(SceneMycelia, DoNotLiveWhereThereIsNothingToLiveOn) {
     const auto rock = shape_of(scenes::Made().floor(-2, -2, 2, 2, 0, "rock"));
     EXPECT_TRUE(Grown(rock, scenes::grass_species()).until(200).empty());
