@@ -38,8 +38,8 @@ constexpr double ring_per_area = 0.36;
 /// Bodies of the ground stand where its normal is at least so high; those on wood hang no farther over.
 constexpr double least_rise = 0.35, lowest_overhang = -0.32;
 
-/// A body needs so much room above it, in radii of its cap.
-constexpr double headroom = 2.0;
+/// A body needs so much space above it, in radii of its cap.
+constexpr double space_above = 2.0;
 
 /// A body that may grow, and from which abundance on it does.
 struct Sprout {
@@ -233,7 +233,7 @@ class SceneSeason {
                 const std::optional<Foot> foot =
                     foot_at(cluster.middle, fruit.cluster_spread * right + fruit.tuft_spread * x,
                             fruit.cluster_spread * forward + fruit.tuft_spread * y);
-                if (!foot || !owns(foot->surfel) || !has_room(*foot)) continue;
+                if (!foot || !owns(foot->surfel) || !has_space(*foot)) continue;
                 put(sprout.body, *foot);
                 out.push_back(sprout);
             }
@@ -264,12 +264,12 @@ class SceneSeason {
     }
 
     /// Returns whether nothing is where the cap of a body would be.
-    [[nodiscard]] bool has_room(const Foot& foot) const {
+    [[nodiscard]] bool has_space(const Foot& foot) const {
         constexpr double above = 2e-3;
         const bool is_on_wood = species_->ecology.guild == Guild::wood;
         const glm::dvec3 way = is_on_wood ? foot.out : glm::dvec3(0.0, 1.0, 0.0);
         return !habitat_.shape->tree.is_blocked(foot.at + above * foot.out, way, 0.0,
-                                                headroom * species_->cap_radius);
+                                                space_above * species_->cap_radius);
     }
 
     /// Sets the place of a body.

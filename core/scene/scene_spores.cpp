@@ -237,10 +237,10 @@ std::vector<double> arriving_spores(const SceneHabitat& habitat, const WindRose&
     return amounts;
 }
 
-std::vector<SporeFlight> spore_flights(const SceneHabitat& habitat, const WindRose& rose,
-                                       const SporeHabit& spores, std::uint32_t stream,
-                                       const std::vector<float>& suits) {
-    std::vector<SporeFlight> flights;
+std::vector<SporePath> spore_paths(const SceneHabitat& habitat, const WindRose& rose,
+                                   const SporeHabit& spores, std::uint32_t stream,
+                                   const std::vector<float>& suits) {
+    std::vector<SporePath> paths;
     const Surfels& surfels = habitat.surfels();
     std::vector<double> sums;
     sums.reserve(surfels.size());
@@ -249,7 +249,7 @@ std::vector<SporeFlight> spore_flights(const SceneHabitat& habitat, const WindRo
         if (suits[i] > 0.0F) sum += static_cast<double>(surfels[i].area);
         sums.push_back(sum);
     }
-    if (!(sum > 0.0)) return flights;
+    if (!(sum > 0.0)) return paths;
     const Air air(surfels);
     const Drift drift(habitat, air, rose, spores.settling);
     for (std::uint32_t packet = 0; packet < leaving_packets; ++packet) {
@@ -276,9 +276,9 @@ std::vector<SporeFlight> spore_flights(const SceneHabitat& habitat, const WindRo
         const glm::dvec3 wind = drawn_wind(rose, which, first, second);
         const auto landing = drift.follow(at, wind, foot, false, random);
         if (!landing) continue;
-        if (const auto to = drift.caught(*landing)) flights.push_back({from, *to});
+        if (const auto to = drift.caught(*landing)) paths.push_back({from, *to});
     }
-    return flights;
+    return paths;
 }
 
 double SceneEstablishment::at(std::size_t surfel, double year) const {
@@ -309,8 +309,7 @@ SceneEstablishment scene_spread(const SceneHabitat& habitat, const FungusSpecies
     std::vector<double> outside = arriving_spores(habitat, rose, spores, species.stream);
     for (std::size_t i = 0; i < count; ++i) outside[i] *= static_cast<double>(surfels[i].area);
     static_cast<void>(wash_down(habitat.run_off, wash_strength, outside));
-    const std::vector<SporeFlight> flights =
-        spore_flights(habitat, rose, spores, species.stream, suits);
+    const std::vector<SporePath> paths = spore_paths(habitat, rose, spores, species.stream, suits);
     const double wind = wind_at_height(rose, spores.height);
     const DispersalKernel kernel =
         dispersal_kernel({.height = spores.height, .settling = spores.settling, .wind = wind});
@@ -326,8 +325,7 @@ SceneEstablishment scene_spread(const SceneHabitat& habitat, const FungusSpecies
         for (std::size_t i = 0; i < count; ++i)
             amounts[i] = kernel.beside * cover[i] * static_cast<double>(surfels[i].area);
         for (int round = 0; round < rounds; ++round) spread_out(habitat, amounts, next);
-        for (const SporeFlight& flight : flights)
-            amounts[flight.to] += of_packet * cover[flight.from];
+        for (const SporePath& path : paths) amounts[path.to] += of_packet * cover[path.from];
         static_cast<void>(wash_down(habitat.run_off, wash_strength, amounts));
         for (std::size_t i = 0; i < count; ++i) {
             if (suits[i] <= 0.0F) continue;

@@ -29,19 +29,18 @@ inline constexpr std::size_t arriving_packets = 6'000, leaving_packets = 4'000;
                                                   const SporeHabit& spores, std::uint32_t stream);
 
 /// The way of a packet of spores from one surfel to another.
-struct SporeFlight {
+struct SporePath {
     std::uint32_t from = 0, to = 0;
-    bool operator==(const SporeFlight&) const = default;
+    bool operator==(const SporePath&) const = default;
 };
 
 /// Returns where packets of spores land that leave the surfels on which a species may live, as many from each square
 /// metre. Those that leave the scene are not among them.
 ///
 /// suits  of each surfel: 0 where the species cannot live
-[[nodiscard]] std::vector<SporeFlight> spore_flights(const SceneHabitat& habitat,
-                                                     const WindRose& rose, const SporeHabit& spores,
-                                                     std::uint32_t stream,
-                                                     const std::vector<float>& suits);
+[[nodiscard]] std::vector<SporePath> spore_paths(const SceneHabitat& habitat, const WindRose& rose,
+                                                 const SporeHabit& spores, std::uint32_t stream,
+                                                 const std::vector<float>& suits);
 
 /// How far a species has spread over a scene: for each moment and surfel 255 where it is as common as it can be.
 struct SceneEstablishment {

@@ -16,8 +16,8 @@ namespace {
 /// Candidates in the square of the spacing, and how many surfels become of them there, about.
 constexpr double candidates_per_square = 4.0, surfels_per_square = 0.6;
 
-/// How much the spacing grows if there are too many surfels.
-constexpr double growth = 1.15;
+/// How much more than needed the spacing grows if there are too many surfels.
+constexpr double growth = 1.05;
 
 /// Surfels are sought in cells of this many spacings.
 constexpr double cell_spacings = 2.0;
@@ -167,7 +167,7 @@ Surfels surfels_of(const Scene& scene, std::uint32_t seed, std::size_t most) {
     if (!(whole > 0.0)) return {};
     double spacing =
         std::max(finest_spacing, std::sqrt(surfels_per_square * whole / static_cast<double>(most)));
-    for (;; spacing *= growth) {
+    while (true) {
         // At least one candidate, also of a scene that is smaller than a surfel.
         const double per_area = std::max(candidates_per_square / (spacing * spacing), 1.0 / whole);
         std::vector<Candidate> candidates = candidates_of(scene, seed, whole, per_area);
@@ -175,6 +175,8 @@ Surfels surfels_of(const Scene& scene, std::uint32_t seed, std::size_t most) {
         const double area = whole / static_cast<double>(candidates.size());
         std::vector<Surfel> list = dominant(std::move(candidates), spacing, area);
         if (list.size() <= most) return {spacing, std::move(list)};
+        // Surfaces that face many ways, as leaves, have more of them.
+        spacing *= growth * std::sqrt(static_cast<double>(list.size()) / static_cast<double>(most));
     }
 }
 

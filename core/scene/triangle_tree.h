@@ -18,7 +18,7 @@ struct RayHit {
     double distance = 0.0;  ///< in lengths of its direction
 };
 
-/// Answers for rays through a scene. Triangles stop rays on both sides. Thread-safe.
+/// Finds what rays through a scene meet. Triangles stop rays on both sides. Thread-safe.
 ///
 /// source  [Ericson2004] ch. 6 for the hierarchy, [MoellerTrumbore1997] for the triangles
 class TriangleTree {

@@ -153,9 +153,13 @@ SceneRequest read_scene(const RouteCall& call, Params& params, ValidationErrors&
     return request;
 }
 
-/// Returns the approximate cost of the fungi of a scene, whose size is not known before it is read.
-Cost cost_of_fungi(const SceneSpec& spec) {
-    return {.base = 2'500'000 + 250'000 * static_cast<std::uint64_t>(species_of(spec).size())};
+/// Returns the approximate cost of the fungi of a scene, whose size is not known before it is read: that of a large one,
+/// half of the most that is possible.
+Cost cost_of_fungi(Store& store, const SceneSpec& spec) {
+    constexpr std::uint64_t of_shape = 5'000'000, of_climate = 1'500'000, of_species = 200'000;
+    Cost cost{.base = of_climate + of_species * species_of(spec).size()};
+    if (!store.scene_parts.cache().find(shape_key(spec.id))) cost.base += of_shape;
+    return cost;
 }
 
 /// Returns the job that computes the fungi of a scene, if they are not cached.
@@ -171,7 +175,7 @@ std::optional<Job> fungi_job(Store& store, const SceneSpec& spec,
             fungi_of_scene(spec, *atlas, scene_caches(store, job.execution()), job.execution()));
         return Response();
     };
-    return Job{key, cost_of_fungi(spec), std::move(run), true};
+    return Job{key, cost_of_fungi(store, spec), std::move(run), true};
 }
 
 using MakeOfFungi = std::function<Body(const SceneFungi&, const ExecutionContext&)>;

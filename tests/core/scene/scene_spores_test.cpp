@@ -55,7 +55,7 @@ TEST(SceneSpores, ArriveOnOpenGroundAsOnThatOfNoScene) {
     EXPECT_NEAR(mean(still, arriving(still), up), 1.0, 0.15);
 }
 
-TEST(SceneSpores, ArriveUpwindAndNotInAClosedRoom) {
+TEST(SceneSpores, ArriveUpwindAndNotInAClosedBox) {
     const auto shape = shape_of(scenes::Made()
                                     .floor(-3, -3, 3, 3, 0, "soil")
                                     .box({-0.5F, 0, -0.5F}, {0.5F, 1.5F, 0.5F}, "wood"));
@@ -66,13 +66,13 @@ TEST(SceneSpores, ArriveUpwindAndNotInAClosedRoom) {
     EXPECT_GT(mean(from_west, a, west), 3.0 * mean(from_north, b, west))
         << "the wind turned by 90 degrees takes them elsewhere";
 
-    const auto room = shape_of(scenes::Made()
-                                   .floor(-1, -1, 1, 1, 0, "soil")
-                                   .box({-1.2F, -0.1F, -1.2F}, {1.2F, 1, 1.2F}, "wood"));
-    const SceneHabitat closed = blown(room, 270, 4);
+    const auto hollow = shape_of(scenes::Made()
+                                     .floor(-1, -1, 1, 1, 0, "soil")
+                                     .box({-1.2F, -0.1F, -1.2F}, {1.2F, 1, 1.2F}, "wood"));
+    const SceneHabitat closed = blown(hollow, 270, 4);
     const std::vector<double> inside = arriving(closed);
     for (std::uint32_t i = 0; i < inside.size(); ++i)
-        if (room->surfels[i].at.y == 0.0F && glm::length(room->surfels[i].at) < 0.7F) {
+        if (hollow->surfels[i].at.y == 0.0F && glm::length(hollow->surfels[i].at) < 0.7F) {
             EXPECT_EQ(inside[i], 0.0);
         }
 }
@@ -86,10 +86,10 @@ TEST(SceneSpores, FlyWithTheWind) {
         spores.settling = settling;
         glm::dvec3 sum(0.0);
         double count = 0.0;
-        for (const SporeFlight& flight :
-             spore_flights(habitat, wind_rose(habitat.conditions.climate), spores, 1, suits)) {
-            sum += glm::dvec3(shape->surfels[flight.to].at) -
-                   glm::dvec3(shape->surfels[flight.from].at);
+        for (const SporePath& path :
+             spore_paths(habitat, wind_rose(habitat.conditions.climate), spores, 1, suits)) {
+            sum +=
+                glm::dvec3(shape->surfels[path.to].at) - glm::dvec3(shape->surfels[path.from].at);
             count += 1.0;
         }
         EXPECT_GT(count, 100.0);

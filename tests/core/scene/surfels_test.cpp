@@ -20,7 +20,7 @@ double area(const Surfels& surfels) {
     return sum;
 }
 
-Scene room() {
+Scene hollow() {
     return scenes::Made()
         .floor(-1, -1, 1, 1, 0, "soil")
         .box({-0.3F, 0.0F, -0.3F}, {0.3F, 0.6F, 0.3F}, "log")
@@ -28,7 +28,7 @@ Scene room() {
 }
 
 TEST(Surfels, AreNoNearerThanTheSpacingIfTheyFaceAlike) {
-    const Surfels surfels = surfels_of(room(), 1);
+    const Surfels surfels = surfels_of(hollow(), 1);
     EXPECT_DOUBLE_EQ(surfels.spacing(), finest_spacing);
     ASSERT_GT(surfels.size(), 1000U);
     for (std::uint32_t i = 0; i < surfels.size(); ++i)
@@ -42,7 +42,7 @@ TEST(Surfels, AreNoNearerThanTheSpacingIfTheyFaceAlike) {
 }
 
 TEST(Surfels, LeaveNoPlaceOfTheSurfaceWithoutOne) {
-    const Surfels surfels = surfels_of(room(), 1);
+    const Surfels surfels = surfels_of(hollow(), 1);
     int empty = 0;
     for (double x = -0.95; x < 1.0; x += 0.05)
         for (double z = -0.95; z < 1.0; z += 0.05)
@@ -51,7 +51,7 @@ TEST(Surfels, LeaveNoPlaceOfTheSurfaceWithoutOne) {
 }
 
 TEST(Surfels, ShareTheWholeAreaAmongThem) {
-    const Surfels surfels = surfels_of(room(), 1);
+    const Surfels surfels = surfels_of(hollow(), 1);
     EXPECT_NEAR(area(surfels), 4.0 + 6.0 * 0.36, 1e-3);
     // As many on each square metre of a wall as of the ground.
     double on_log = 0.0;
@@ -61,7 +61,7 @@ TEST(Surfels, ShareTheWholeAreaAmongThem) {
 }
 
 TEST(Surfels, LieOnTheirTrianglesAndHaveTheirNormals) {
-    const Scene scene = room();
+    const Scene scene = hollow();
     for (const Surfel& one : surfels_of(scene, 3)) {
         const SceneTriangle& triangle = scene.triangles[one.triangle];
         EXPECT_EQ(one.material, triangle.material);
@@ -98,7 +98,7 @@ TEST(Surfels, OfAScrapOfPaperAreAtLeastOne) {
 }
 
 TEST(Surfels, AreTheSameForTheSameSeedAlone) {
-    const Scene scene = room();
+    const Scene scene = hollow();
     EXPECT_TRUE(surfels_of(scene, 5) == surfels_of(scene, 5));
     EXPECT_FALSE(surfels_of(scene, 5) == surfels_of(scene, 6));
 }
