@@ -46,7 +46,7 @@ inline constexpr double rain_fall = 6.5;
 /// rose  speeds are those 10 m above the ground; the wind that drives rain is that at 2 m
 /// seed  turns the wind of each surfel within its sector
 /// cost  16 rays for each surfel
-/// source  wind-driven rain on a wall is rain times wind over the speed of fall: [Blocken2004] eq. 3
+/// source  wind-driven rain on a wall is rain times wind over the speed of fall: [Blocken2004]
 [[nodiscard]] std::vector<float> rain_on(const Surfels& surfels, const TriangleTree& tree,
                                          const WindRose& rose, std::uint32_t seed,
                                          const Parallel& parallel = in_turn);

@@ -292,6 +292,30 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/v1/terrains/{terrain}.png", ofTerrain), client.GET("/v1/terrains/{terrain}.png", { ...ofTerrain, ...binary }));
     await client.GET("/v1/worlds/{world}.json", { params: { path: { world: `meadow,extent=256,terrain.id=${terrain}` } } });
 
+    const { data: made } = await client.GET("/v1/leaves/{preset}.glb", { params: { path: { preset: "maple" }, query: { lod: 3, texture_size: 128 } }, ...binary });
+    const { data: placed } = await client.POST("/v1/scenes", {
+        body: made as unknown as string,
+        bodySerializer: (file: unknown) => file as ArrayBuffer,
+        headers: { "Content-Type": "model/gltf-binary" },
+    });
+    const scene: string = placed?.scene ?? "";
+    const ofScene = { params: { path: { scene } } };
+    await client.HEAD("/v1/scenes/{scene}.json", ofScene);
+    const { data: surfaces } = await client.GET("/v1/scenes/{scene}.json", ofScene);
+    if (!surfaces?.triangles || surfaces.materials.length !== 1) throw new Error("a scene is not described as it was sent");
+    const onScene = { params: { path: { scene, world: "meadow,seed=7", time: "y80d270" } } };
+    await both(client.HEAD("/v1/scenes/{scene}/{world}/{time}/fungi.glb", onScene), client.GET("/v1/scenes/{scene}/{world}/{time}/fungi.glb", { ...onScene, ...binary }));
+    await both(client.HEAD("/v1/scenes/{scene}/{world}/{time}/placements.csv", onScene), client.GET("/v1/scenes/{scene}/{world}/{time}/placements.csv", { ...onScene, ...text }));
+    await client.HEAD("/v1/scenes/{scene}/{world}/{time}/placements.json", onScene);
+    const { data: onSurfaces } = await client.GET("/v1/scenes/{scene}/{world}/{time}/placements.json", onScene);
+    if (onSurfaces?.count !== onSurfaces?.placements.length) throw new Error("the rows of a scene are not counted");
+    await both(client.HEAD("/v1/scenes/{scene}/{world}/{time}/placements.bin", onScene), client.GET("/v1/scenes/{scene}/{world}/{time}/placements.bin", { ...onScene, ...binary }));
+    const lightOf = { params: { path: { ...onScene.params.path, map: "light" } } };
+    await both(client.HEAD("/v1/scenes/{scene}/{world}/{time}/maps/{map}.bin", lightOf), client.GET("/v1/scenes/{scene}/{world}/{time}/maps/{map}.bin", { ...lightOf, ...binary }));
+    await client.HEAD("/v1/scenes/{scene}/{world}/{time}/maps/{map}.json", lightOf);
+    const { data: light } = await client.GET("/v1/scenes/{scene}/{world}/{time}/maps/{map}.json", lightOf);
+    if (light?.count !== surfaces.vertices) throw new Error("a map of a scene has not a number for each vertex");
+
     const { data: picture } = await client.GET("/v1/mushrooms/{mix}.png", { params: { path: { mix: id }, query: { lod: 2, width: 320, height: 320, view: "front", background: "grey" } }, ...binary });
     const { data: uploaded } = await client.POST("/v1/photos", {
         body: picture as unknown as string,

@@ -60,6 +60,7 @@ export class Generator {
         if (name === "species" && schema.type === "string") return dice.pick(["", "marasmius_oreades"]); // of a meadow
         if (name === "species") return this.someSpecies();
         if (name === "layers") return dice.pick(["", "fungi", "ground+trees"]);
+        if (name === "substrates") return dice.pick(["", "maple:grass", "maple:beech"]); // of the leaf that is a scene
         if (name === "kinds") return dice.pick(["", "tree", "fungus+log"]);
         if (name === "photo") return dice.pick(this.lists.photos);
         if (name === "lock") return schema.type === "array" ? ["surface.cap", "size"].slice(dice.below(3)) : dice.pick(["surface.cap", "size,surface.stem", "deformation.bend_deg"]);
@@ -126,7 +127,7 @@ export class Generator {
         }
         if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
         if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
-        if (name === "world" && /season|plot|placements|limits|maps|profile/.test(path)) return "meadow,extent=256"; // others take seconds
+        if (name === "world" && /season|plot|placements|limits|maps|profile|scenes/.test(path)) return "meadow,extent=256"; // others take seconds
         if (name === "world") {
             const texts = [",extent=256", ",seed=7,extent=256", ",climate.rain=600,climate.latitude_deg=-40"];
             return dice.pick(lists.worlds) + dice.pick(texts);
@@ -139,6 +140,8 @@ export class Generator {
         if (name === "type") return dice.pick(lists.types);
         if (name === "photo") return dice.pick(lists.photos);
         if (name === "terrain") return dice.pick(lists.terrains);
+        if (name === "scene") return dice.pick(lists.scenes);
+        if (name === "map" && path.startsWith("/v1/scenes/")) return dice.pick(["light", "wetness", "rain", "spores:marasmius_oreades", "probability:hygrocybe_conica"]);
         if (name === "lod") return dice.pick(["0", "3"]);
         if (name === "species") return dice.pick(lists.library) + dice.pick(["", "@1", "@2"]);
         if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
@@ -222,6 +225,8 @@ export async function listsOf(url, document) {
     const uploaded = async () => (await (await fetch(`${url}/v1/photos`, { method: "POST", headers: { "Content-Type": "image/png" }, body: picture })).json()).photo;
     const heights = await bytesOf("/v1/worlds/meadow,extent=256/y80d270/maps/height.png?size=65");
     const terrain = async (metres) => (await (await fetch(`${url}/v1/terrains?metres=${metres}&max=30`, { method: "POST", headers: { "Content-Type": "image/png" }, body: heights })).json()).terrain;
+    const file = await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128");
+    const scene = async () => (await (await fetch(`${url}/v1/scenes`, { method: "POST", headers: { "Content-Type": "model/gltf-binary" }, body: file })).json()).scene;
     const token = process.env.SPOREPRINT_TOKEN ?? "";
     const template = await (await fetch(`${url}/v1/species/boletus_edulis`)).json();
     const published = async (name) => {
@@ -238,10 +243,11 @@ export async function listsOf(url, document) {
     trees: await list("/v1/trees", "trees"),
     worlds: await list("/v1/worlds", "worlds"),
     types: Object.values(document.components.responses).map((one) => one.content?.["application/problem+json"]?.example.type.split("/").pop()).filter(Boolean),
-    file: await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128"),
+    file,
     picture,
     heights,
     terrains: await Promise.all([320, 1280].map(terrain)),
+    scenes: [await scene()],
     photos: await Promise.all(Array.from({ length: 12 }, uploaded)),
     token,
     library: await Promise.all(["one", "two", "three", "four"].map(published)),
