@@ -119,7 +119,8 @@ struct Options {
                                    .min = 128,
                                    .max = 1048576,
                                    .doc = "Room for terrains that clients send, in that folder "
-                                          "too; those that were used least lately make room."});
+                                          "too, and again for scenes; those that were used least "
+                                          "lately make room."});
         visit(
             &O::library,
             Info{.name = "library",

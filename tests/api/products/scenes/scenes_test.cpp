@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -125,8 +126,10 @@ TEST_F(SceneRoutes, LetFungiGrow) {
     EXPECT_EQ(header(file, "Content-Type"), "model/gltf-binary");
     const std::string glb = text_of(file);
     std::vector<Problem> problems;
-    const Value document = parse(
-        json_chunk({reinterpret_cast<const std::uint8_t*>(glb.data()), glb.size()}), problems);
+    const Value document =
+        parse(json_chunk(std::span<const std::uint8_t>(
+                  reinterpret_cast<const std::uint8_t*>(glb.data()), glb.size())),
+              problems);
     EXPECT_EQ(document.find("nodes")->items().size(), most);
     EXPECT_EQ(document.find("asset")->find("extras")->find("bodies")->items().size(), most);
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,7 +38,7 @@ SceneFungiOptions bare() {
 Value document(const Grown& file) {
     const Bytes bytes = joined(file.glb);
     std::vector<Problem> problems;
-    Value value = parse(json_chunk(bytes), problems);
+    Value value = parse(json_chunk(std::span<const std::uint8_t>(bytes)), problems);
     EXPECT_TRUE(problems.empty());
     return value;
 }
