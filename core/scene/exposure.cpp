@@ -20,6 +20,9 @@ constexpr double above = 1e-3, endless = 1e6;
 /// Height of the wind that drives the rain, and of the grass below it, metres.
 constexpr double rain_height = 2.0, grass_height = 0.15;
 
+/// Below the ground no more of the sky is seen than this, beyond the rim of the scene.
+constexpr float most_sky_below = 0.2F;
+
 /// Directions of the rain in each sector of the wind.
 constexpr int rains_of_sector = 2;
 
@@ -79,6 +82,43 @@ std::vector<float> sky_of(const Surfels& surfels, const TriangleTree& tree, std:
         }
         return static_cast<double>(open) / sky_rays;
     });
+}
+
+std::vector<std::uint8_t> buried_of(const Surfels& surfels, const TriangleTree& tree,
+                                    const Scene& scene, const std::vector<float>& sky,
+                                    const Parallel& parallel) {
+    // Straight up and aslant: leaves that are single sheets may be passed from behind in some of these directions.
+    constexpr int around = 5;
+    std::vector<glm::dvec3> ways = {{0.0, 1.0, 0.0}};
+    const auto [rise, level] = sine_cosine(pi / 3.0);
+    for (int k = 0; k < around; ++k) {
+        const auto [sine, cosine] = sine_cosine(2.0 * pi * k / around);
+        ways.emplace_back(level * cosine, rise, level * sine);
+    }
+    const auto is_within = [&](const glm::dvec3& start, const glm::dvec3& way) {
+        constexpr int most_passed = 64;
+        int balance = 0;
+        double from = 0.0;
+        for (int passed = 0; passed < most_passed; ++passed) {
+            const auto hit = tree.first_hit(start, way, from, endless);
+            if (!hit) break;
+            balance += glm::dot(normal_of(scene, hit->triangle), way) > 0.0 ? 1 : -1;
+            from = hit->distance + above;
+        }
+        return balance > 0;
+    };
+    const std::vector<float> found = values_of(surfels, parallel, [&](std::size_t i) {
+        if (sky[i] > most_sky_below) return 0.0;
+        return std::ranges::all_of(
+                   ways,
+                   [&](const glm::dvec3& way) { return is_within(start_of(surfels[i]), way); })
+                   ? 1.0
+                   : 0.0;
+    });
+    std::vector<std::uint8_t> out;
+    out.reserve(found.size());
+    for (const float one : found) out.push_back(one > 0.0F ? 1 : 0);
+    return out;
 }
 
 std::vector<float> sun_on(const Surfels& surfels, const TriangleTree& tree, const SunDay& sun,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/images.h"
+#include "core/scene/scene.h"
 #include "core/scene/surfels.h"
 #include "core/scene/triangle_tree.h"
 #include "core/world/horizon.h"
@@ -36,6 +37,16 @@ inline constexpr std::size_t sky_rays = 64;
 /// cost  12 rays for each surfel
 [[nodiscard]] std::vector<float> sun_on(const Surfels& surfels, const TriangleTree& tree,
                                         const SunDay& sun, const Parallel& parallel = in_turn);
+
+/// Returns for each surfel 1 if it is in the ground or within a solid: it sees little of the sky, and upwards more
+/// surfaces are passed from behind than from the front, in six directions.
+///
+/// scene  of the surfels
+/// sky    sky_of() them
+/// cost   some rays for each surfel without sky
+[[nodiscard]] std::vector<std::uint8_t> buried_of(const Surfels& surfels, const TriangleTree& tree,
+                                                  const Scene& scene, const std::vector<float>& sky,
+                                                  const Parallel& parallel = in_turn);
 
 /// Speed at which rain falls, m/s: that of drops of 2 mm [GunnKinzer1949].
 inline constexpr double rain_fall = 6.5;

@@ -53,7 +53,7 @@ WaterSupply SceneHabitat::supply(std::size_t surfel) const {
 
 std::size_t SceneShape::bytes() const {
     return sizeof(*this) + scene->bytes() + surfels.bytes() + graph.bytes() +
-           sky.size() * sizeof(float) + tree.bytes();
+           sky.size() * sizeof(float) + buried.size() + tree.bytes();
 }
 
 SceneShape shape_of_scene(std::shared_ptr<const Scene> scene, const Parallel& parallel) {
@@ -61,8 +61,9 @@ SceneShape shape_of_scene(std::shared_ptr<const Scene> scene, const Parallel& pa
     Surfels surfels = surfels_of(*scene, seed_of_shapes);
     SurfelGraph graph = graph_of(surfels, tree, parallel);
     std::vector<float> sky = sky_of(surfels, tree, seed_of_shapes, parallel);
-    return {std::move(scene), std::move(tree), std::move(surfels), std::move(graph),
-            std::move(sky)};
+    std::vector<std::uint8_t> buried = buried_of(surfels, tree, *scene, sky, parallel);
+    return {std::move(scene), std::move(tree), std::move(surfels),
+            std::move(graph), std::move(sky),  std::move(buried)};
 }
 
 double SceneHabitat::suitability(const FungusSpecies& species, std::size_t surfel) const {

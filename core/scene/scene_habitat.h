@@ -28,7 +28,8 @@ struct SceneShape {
     TriangleTree tree;
     Surfels surfels;
     SurfelGraph graph;
-    std::vector<float> sky;  ///< sky_of() the surfels
+    std::vector<float> sky;            ///< sky_of() the surfels
+    std::vector<std::uint8_t> buried;  ///< buried_of() them: nothing fruits there
 
     /// Returns the memory that it takes, the scene among it.
     [[nodiscard]] std::size_t bytes() const;

@@ -177,6 +177,7 @@ class SceneSeason {
     }
 
     [[nodiscard]] double weight_at(std::uint32_t surfel, const Ring& ring) const {
+        if (habitat_.shape->buried[surfel] != 0) return 0.0;
         if (ring.is_band) {
             const auto away = static_cast<double>(territory_.distance[surfel]);
             return away >= ring.from && away <= ring.to ? ring.density : 0.0;
@@ -256,7 +257,8 @@ class SceneSeason {
         foot.out = normal_of(*habitat_.shape->scene, hit->triangle);
         const auto nearest =
             surfels_.nearest(foot.at, foot.out, neighbour_spacings * surfels_.spacing());
-        if (!nearest || glm::dot(foot.out, normal) <= 0.0) return std::nullopt;
+        if (!nearest || glm::dot(foot.out, normal) <= 0.0 || habitat_.shape->buried[*nearest] != 0)
+            return std::nullopt;
         foot.surfel = *nearest;
         const bool is_on_wood = species_->ecology.guild == Guild::wood;
         if (foot.out.y < (is_on_wood ? lowest_overhang : least_rise)) return std::nullopt;
@@ -313,8 +315,10 @@ class SceneSeason {
             },
             [&](const SearchFind& find) {
                 reached.emplace_back(find.surfel, find.cost);
-                const double weight = habitat_.suitability(*species_, find.surfel) *
-                                      static_cast<double>(surfels_[find.surfel].area);
+                const double weight = habitat_.shape->buried[find.surfel] != 0
+                                          ? 0.0
+                                          : habitat_.suitability(*species_, find.surfel) *
+                                                static_cast<double>(surfels_[find.surfel].area);
                 if (weight > 0.0) shares.push_back({find.surfel, sum += weight});
                 return true;
             });

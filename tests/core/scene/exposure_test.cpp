@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -93,6 +94,24 @@ TEST(Exposure, ToRainFromTheWestWetsWestWalls) {
     const WindRose north = wind_rose({.wind_from_deg = 0, .wind_speed = 6, .wind_focus = 5});
     const std::vector<float> turned = rain_on(lit.surfels, lit.tree, north, 1);
     EXPECT_NEAR(lit.at(turned, {0.0, 2.0, -0.5}, to_north), wet, 0.1);
+}
+
+TEST(Exposure, TellsWhatIsInTheGroundFromWhatIsBelowARoof) {
+    const Lit lit(scenes::Made()
+                      .floor(-2, -2, 2, 2, 0, "soil")
+                      .box({-0.5F, -0.6F, -0.5F}, {0.5F, 0.6F, 0.5F}, "wood")
+                      .box({-9, 2, -9}, {9, 2.1F, 9}, "metal"));
+    const std::vector<float> sky = sky_of(lit.surfels, lit.tree, 1);
+    const std::vector<std::uint8_t> buried = buried_of(lit.surfels, lit.tree, lit.scene, sky);
+    const auto at = [&](const glm::dvec3& place, const glm::dvec3& normal) {
+        return buried[lit.surfels.nearest(place, normal, 0.6).value()] != 0;
+    };
+    EXPECT_TRUE(at({0.5, -0.4, 0.0}, to_east)) << "a side of the wood below the ground";
+    EXPECT_TRUE(at({0.0, -0.6, 0.0}, -up)) << "its lower end";
+    EXPECT_TRUE(at({0.0, 0.0, 0.0}, up)) << "the ground within the wood";
+    EXPECT_FALSE(at({0.5, 0.4, 0.0}, to_east));
+    EXPECT_FALSE(at({0.0, 0.6, 0.0}, up));
+    EXPECT_FALSE(at({1.5, 0.0, 0.0}, up)) << "dark, but below a roof";
 }
 
 TEST(Exposure, IsTheSameWithSeveralThreads) {
