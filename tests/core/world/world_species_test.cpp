@@ -14,16 +14,15 @@ namespace sporeprint::world_species_test {
 namespace {
 
 const WorldLookup& lookup() {
-    static const WorldLookup one{
-        [](std::string_view) { return nullptr; },
-        [](std::string_view id) -> std::optional<SpeciesRecord> {
-            if (id != "bolete") return std::nullopt;
-            SpeciesRecord record;
-            record.ecology.trees = {Text<48>("spruce")};
-            record.months = 0b0011'0000'0000;  // September and October
-            record.cap_radius = 0.06;
-            return record;
-        }};
+    static const WorldLookup one{[](std::string_view) { return nullptr; },
+                                 [](std::string_view id) -> std::optional<SpeciesRecord> {
+                                     if (id != "bolete") return std::nullopt;
+                                     SpeciesRecord record;
+                                     record.ecology.trees = {Text<48>("spruce")};
+                                     record.months = 0b0011'0000'0000;  // September and October
+                                     record.cap_radius = 0.06;
+                                     return record;
+                                 }};
     return one;
 }
 
