@@ -71,7 +71,7 @@ class PatchCanopy {
     const Stand* stand_;
     WorldTime time_;
     std::map<std::pair<std::int32_t, std::int32_t>, Known> known_;
-    std::map<std::pair<std::int32_t, std::int32_t>, Near> near_;  ///< of cells that were asked for
+    std::map<std::pair<std::int32_t, std::int32_t>, Near> near_;  ///< of requested cells
 };
 
 }  // namespace sporeprint

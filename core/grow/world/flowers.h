@@ -18,7 +18,7 @@ namespace sporeprint {
 struct FlowerKind {
     std::string_view name;
     int first = 1, last = 365;  ///< days of the northern year on which some are open
-    double per_m2 = 0.0;        ///< where it likes to grow best, in the middle of its time
+    double per_m2 = 0.0;        ///< in its best places, in the middle of its time
     bool in_woods = false;  ///< between fallen leaves below broad-leaved trees; otherwise in grass
     int petals = 5;
     double width = 0.02, height = 0.1;

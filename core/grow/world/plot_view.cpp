@@ -56,7 +56,7 @@ double freedom(const std::vector<Trunk>& trunks, const glm::dvec2& eye, const gl
     return least;
 }
 
-/// Returns the fruit body of a plot with the most others beside it, of those that are more than a bud and not above the
+/// Returns the fruit body of a plot with the most others beside it, of those that are grown enough to be seen and not above the
 /// eyes of who kneels.
 std::optional<glm::dvec3> middle_of_bodies(const PlotContent& content) {
     constexpr double least_age = 0.2, beside = 0.5, highest = 1.0;
