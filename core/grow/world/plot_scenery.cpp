@@ -319,7 +319,8 @@ class Scenery {
             const double distance = glm::length(way), height = height_at(tree, plot_.time);
             // Of the farthest saplings nothing is seen.
             if (distance > trees_within || height < 0.01 * distance) continue;
-            const bool is_before = glm::dot(way, gaze()) > 0.7 * distance - 1.5 * crown_radius(height);
+            const bool is_before =
+                glm::dot(way, gaze()) > 0.7 * distance - 1.5 * crown_radius(height);
             seen.push_back({&tree, distance, height, has_low_leaves(tree, height), is_before});
         }
         return seen;
