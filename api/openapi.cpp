@@ -372,6 +372,11 @@ Value operation(const RouteGroup& group, const Route& route, const DocumentInput
         part.find("headers")->set("Content-Range", reference("headers/always-Content-Range"));
         responses.set("206", std::move(part));
     }
+    if (route.may_be_stored) {
+        Value known = success;
+        known.set("description", "It is stored already.");
+        responses.set("200", std::move(known));
+    }
     responses.set(std::to_string(route.success), std::move(success));
     std::set<int> problems = problems_of(route, is_signed, inputs.has_library);
     if (is_get(route) && route.kind != RouteKind::health && route.kind != RouteKind::upload &&

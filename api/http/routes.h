@@ -56,6 +56,7 @@ struct Route {
     const char* media_type;             ///< of the response; empty for none
     const char* body_type = "";         ///< media types of the body, by commas
     int success = 200;                  ///< the status of a response that is no problem
+    bool may_be_stored = false;         ///< 200 for what is stored already
     std::size_t most_body = 256 << 10;  ///< bytes of the request body
     std::string (*example)(const Atlas&) = nullptr;      ///< returns an example of {preset}
     const char* response_schema = nullptr;               ///< name in /components/schemas

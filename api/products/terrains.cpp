@@ -206,6 +206,7 @@ constexpr Route routes[] = {
      .media_type = json,
      .body_type = "image/png",
      .success = 201,
+     .may_be_stored = true,
      .most_body = most_terrain_bytes,
      .response_schema = "terrain",
      .query_schema = upload_query_schema,

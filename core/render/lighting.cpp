@@ -106,10 +106,10 @@ ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side,
     up_ = glm::cross(direction, right_);
     if (focus) {
         levels_.push_back(level_round(focus->box, focus->side));
-        draw_focus(list, levels_.back());
+        draw_focus(list, levels_.back(), focus->has_foliage);
     }
     levels_.push_back(level_round(list.box, side));
-    draw_whole(list, levels_.back());
+    draw_whole(list, levels_.back(), !focus);
 }
 
 ShadowMap::Level ShadowMap::level_round(const Bounds& box, int side) const {
@@ -133,7 +133,7 @@ ShadowMap::Level ShadowMap::level_round(const Bounds& box, int side) const {
     return level;
 }
 
-void ShadowMap::draw_whole(const DrawList& list, Level& level) const {
+void ShadowMap::draw_whole(const DrawList& list, Level& level, bool has_foliage) const {
     const int side = level.side;
     std::vector<SnappedCorner> corners;
     // From the scene to texels and depths; its columns are images of the axes.
@@ -141,6 +141,7 @@ void ShadowMap::draw_whole(const DrawList& list, Level& level) const {
         glm::transpose(glm::mat3(right_ * level.scale, up_ * -level.scale, direction_));
     const glm::vec3 origin(1.0F - level.left * level.scale, 1.0F - level.top * level.scale, 0.0F);
     for (const Draw& draw : list.draws) {
+        if (!has_foliage && draw.role == GlbRole::foliage) continue;
         const glm::mat3 linear = to_image * draw.placement.linear;
         const glm::vec3 moved = to_image * draw.placement.translation + origin;
         corners.resize(draw.mesh->positions.size());
@@ -160,7 +161,7 @@ void ShadowMap::draw_whole(const DrawList& list, Level& level) const {
     }
 }
 
-void ShadowMap::draw_focus(const DrawList& list, Level& level) const {
+void ShadowMap::draw_focus(const DrawList& list, Level& level, bool has_foliage) const {
     // The image lies in the middle of one that is twice as wide, so that triangles at its border keep their shape; what
     // reaches beyond that is too large to be a leaf or a branch, and too far away to be seen.
     const int side = level.side, margin = side / 2;
@@ -175,6 +176,7 @@ void ShadowMap::draw_focus(const DrawList& list, Level& level) const {
     };
     std::vector<glm::vec3> places;
     for (const Draw& draw : list.draws) {
+        if (!has_foliage && draw.role == GlbRole::foliage) continue;
         const glm::mat3 linear = to_image * draw.placement.linear;
         const glm::vec3 moved = to_image * draw.placement.translation + origin;
         places.resize(draw.mesh->positions.size());

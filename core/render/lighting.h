@@ -64,6 +64,8 @@ void add_half(std::vector<Light>& lights, int parts, double sign,
 struct ShadowFocus {
     Bounds box;
     int side = 0;  ///< of the maps of it, texels, at most largest_focus_side
+    /// Whether leaves and blades (GlbRole::foliage) cast shadows in it; in the map of the whole scene they are too small.
+    bool has_foliage = true;
 };
 inline constexpr int largest_focus_side = largest_raster_side / 2;
 
@@ -102,8 +104,8 @@ class ShadowMap {
     };
 
     [[nodiscard]] Level level_round(const Bounds& box, int side) const;
-    void draw_whole(const DrawList& list, Level& level) const;
-    void draw_focus(const DrawList& list, Level& level) const;
+    void draw_whole(const DrawList& list, Level& level, bool has_foliage) const;
+    void draw_focus(const DrawList& list, Level& level, bool has_foliage) const;
 
     /// Returns the place of a point, moved off its surface and towards the light by three quarters
     /// of a texel.

@@ -285,7 +285,7 @@ class Drawing {
             const Outdoors& outdoors, const Parallel& parallel)
         : Drawing(list, camera, params, &sky, sky.lights(outdoors_detail),
                   {sun_side, ShadowFocus{outdoors.near, near_sun_side}},
-                  {sky_side, ShadowFocus{outdoors.near, near_sky_side}}, parallel) {}
+                  {sky_side, ShadowFocus{outdoors.near, near_sky_side, false}}, parallel) {}
 
     static int detail_of_lights(const PictureParams& params, std::uint64_t triangles) {
         return triangles > 1'000'000 ? 4 : triangles > 250'000 || is_small(params) ? 2 : 1;

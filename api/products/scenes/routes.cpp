@@ -25,6 +25,7 @@ constexpr Route routes[] = {
      .media_type = json,
      .body_type = "model/gltf-binary",
      .success = 201,
+     .may_be_stored = true,
      .most_body = most_scene_bytes,
      .response_schema = "scene",
      .plan = plan_scene_upload},

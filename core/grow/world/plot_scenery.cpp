@@ -99,7 +99,9 @@ bool is_within(const WorldBox& inner, const WorldBox& outer) {
 /// Levels of detail of a tree: of its bark and of its leaves.
 struct TreeLevels {
     int bark = 2, leaves = 2;
-    auto operator<=>(const TreeLevels&) const = default;
+    bool operator<(const TreeLevels& other) const {
+        return bark != other.bark ? bark < other.bark : leaves < other.leaves;
+    }
 };
 
 /// Returns the levels of detail of a tree that is so far away.

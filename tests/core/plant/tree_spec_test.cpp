@@ -33,7 +33,8 @@ TEST(TreeSpec, APresetHasItsOwnParametersByDefault) {
 TEST(TreeSpec, AnUnknownLeafIsReportedWithTheLeavesOfTheAtlas) {
     TreeParams params = params_of(*tree_preset("birch"));
     params.look.leaf.id = "elm";
-    EXPECT_TRUE(names(problems_in(params), "/leaf", "'elm' is not one of maple, oak, birch"));
+    EXPECT_TRUE(
+        names(problems_in(params), "/leaf", "'elm' is not one of maple, oak, beech, birch"));
     std::vector<Problem> problems;
     const std::pair<std::string, std::string> pair{"leaf", "elm"};
     params = params_of(*tree_preset("birch"));

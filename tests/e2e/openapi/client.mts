@@ -292,13 +292,13 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await both(client.HEAD("/v1/terrains/{terrain}.png", ofTerrain), client.GET("/v1/terrains/{terrain}.png", { ...ofTerrain, ...binary }));
     await client.GET("/v1/worlds/{world}.json", { params: { path: { world: `meadow,extent=256,terrain.id=${terrain}` } } });
 
-    const { data: made } = await client.GET("/v1/leaves/{preset}.glb", { params: { path: { preset: "maple" }, query: { lod: 3, texture_size: 128 } }, ...binary });
-    const { data: placed } = await client.POST("/v1/scenes", {
-        body: made as unknown as string,
+    const { data: surface } = await client.GET("/v1/leaves/{preset}.glb", { params: { path: { preset: "maple" }, query: { lod: 3, texture_size: 128 } }, ...binary });
+    const { data: placedOn } = await client.POST("/v1/scenes", {
+        body: surface as unknown as string,
         bodySerializer: (file: unknown) => file as ArrayBuffer,
         headers: { "Content-Type": "model/gltf-binary" },
     });
-    const scene: string = placed?.scene ?? "";
+    const scene: string = placedOn?.scene ?? "";
     const ofScene = { params: { path: { scene } } };
     await client.HEAD("/v1/scenes/{scene}.json", ofScene);
     const { data: surfaces } = await client.GET("/v1/scenes/{scene}.json", ofScene);

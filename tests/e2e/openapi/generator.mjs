@@ -60,7 +60,7 @@ export class Generator {
         if (name === "species" && schema.type === "string") return dice.pick(["", "marasmius_oreades"]); // of a meadow
         if (name === "species") return this.someSpecies();
         if (name === "layers") return dice.pick(["", "fungi", "ground+trees"]);
-        if (name === "substrates") return dice.pick(["", "maple:grass", "maple:beech"]); // of the leaf that is a scene
+        if (name === "substrates") return dice.pick(["", `${this.lists.material}:grass`, `${this.lists.material}:beech`]);
         if (name === "kinds") return dice.pick(["", "tree", "fungus+log"]);
         if (name === "photo") return dice.pick(this.lists.photos);
         if (name === "lock") return schema.type === "array" ? ["surface.cap", "size"].slice(dice.below(3)) : dice.pick(["surface.cap", "size,surface.stem", "deformation.bend_deg"]);
@@ -173,6 +173,9 @@ export class Generator {
             if (spoilt) [right, wrong] = [false, true];
             query.push([parameter.name, spoilt ? this.wrong(parameter.schema, true) : this.right(parameter.schema, parameter.name.split(".").pop())]);
         }
+        // A picture with the world round its plot takes seconds; few of them have it.
+        const isAlone = path.endsWith("/plot.png") && dice.chance(0.8);
+        if (isAlone && operation.parameters?.some((one) => one.name === "background") && !query.some(([key]) => key === "background")) query.push(["background", "grey"]);
         if (known.length && dice.chance(0.02)) [right] = [false, query.push(...query.slice(0, 1))];
         if (dice.chance(0.02)) [right] = [false, query.push([dice.pick(["sed", "v", "", "__proto__", "lod.x"]), "1"])];
         if (query.length) target += `?${query.map(([key, value]) => `${encodeURIComponent(key)}=${encodeURIComponent(value)}`).join("&")}`;
@@ -190,6 +193,7 @@ export class Generator {
                 if ("texture_size" in properties) value = { texture_size: follow(this.document, properties.texture_size).enum[0], ...value };
                 if ("lod" in properties) value = { lod: Math.min(3, follow(this.document, properties.lod).maximum), ...value };
                 if ("count" in properties) value = { count: 2, ...value };
+                if (isAlone) value = { background: "grey", ...value };
                 if (dice.chance(0.15)) {
                     const key = dice.pick(Object.keys(properties));
                     value = { ...value, [key]: this.wrong(properties[key], false) };
@@ -227,6 +231,7 @@ export async function listsOf(url, document) {
     const terrain = async (metres) => (await (await fetch(`${url}/v1/terrains?metres=${metres}&max=30`, { method: "POST", headers: { "Content-Type": "image/png" }, body: heights })).json()).terrain;
     const file = await bytesOf("/v1/leaves/maple.glb?lod=3&texture_size=128");
     const scene = async () => (await (await fetch(`${url}/v1/scenes`, { method: "POST", headers: { "Content-Type": "model/gltf-binary" }, body: file })).json()).scene;
+    const ofLeaf = await scene();
     const token = process.env.SPOREPRINT_TOKEN ?? "";
     const template = await (await fetch(`${url}/v1/species/boletus_edulis`)).json();
     const published = async (name) => {
@@ -247,7 +252,8 @@ export async function listsOf(url, document) {
     picture,
     heights,
     terrains: await Promise.all([320, 1280].map(terrain)),
-    scenes: [await scene()],
+    scenes: [ofLeaf],
+    material: (await (await fetch(`${url}/v1/scenes/${ofLeaf}.json`)).json()).materials[0].name,
     photos: await Promise.all(Array.from({ length: 12 }, uploaded)),
     token,
     library: await Promise.all(["one", "two", "three", "four"].map(published)),
