@@ -185,6 +185,8 @@ class Scenery {
     std::optional<FloorHeights> floor_;
     glm::dvec3 origin_{0.0};  ///< of the picture in the world
     WorldBox nearest_, near_, middle_, far_, farthest_;
+    std::map<const WorldBox*, CoverField>
+        covers_;             ///< of these squares, as far as they were needed
     bool is_close_ = false;  ///< the camera is close to what it looks at
 
     [[nodiscard]] glm::dvec2 eye() const {
@@ -258,6 +260,15 @@ class Scenery {
         return step;
     }
 
+    /// Returns the cover of one of the squares, which ground, leaves, grass and trunks share.
+    ///
+    /// content  content_on() the square
+    const CoverField& cover_on(const WorldBox& box, const PlotContent& content) {
+        const auto [found, is_new] = covers_.try_emplace(&box);
+        if (is_new) found->second = cover_of(content, atlas_, step_of(box));
+        return found->second;
+    }
+
     /// Adds a square of ground whose crowns are not part of it.
     ///
     /// finest, growth  as of ground_ring()
@@ -268,7 +279,7 @@ class Scenery {
         const PlotFrame frame(content, *floor_);
         const int texels = hole && has_pieces(box) ? fine_texels : ground_texels;
         const std::size_t material = materials_.ground(name, [&](ImageFormat format) {
-            const CoverField cover = cover_of(content, atlas_, step_of(box));
+            const CoverField& cover = cover_on(box, content);
             return encoded(
                 floor_of(content, cover, texels, has_pieces(box), atlas_, execution_.parallel),
                 format, execution_.parallel);
@@ -413,7 +424,7 @@ class Scenery {
         const PlotContent content = content_on(near_);
         const PlotFrame frame(content, *floor_);
         const std::size_t parent = node_of(frame);
-        const CoverField cover = cover_of(content, atlas_);
+        const CoverField& cover = cover_on(near_, content);
         if (options_.litter > 0.0)
             for (PlotLeaves& own : leaves_of(content, frame, cover, options_.litter, atlas_, 0.0))
                 add_single(parent, own.merged(), "litter",
@@ -439,7 +450,7 @@ class Scenery {
     void add_tufts(const WorldBox& box, int from, int to, const std::optional<WorldBox>& but) {
         const PlotContent content = content_on(box);
         const PlotFrame frame(content, *floor_);
-        const CoverField cover = cover_of(content, atlas_, step_of(box));
+        const CoverField& cover = cover_on(box, content);
         std::vector<std::vector<GlbTransform>> fewer;
         if (from > 0) fewer = tufts_on(content, frame, cover, from);
         const std::vector<std::vector<GlbTransform>> all = tufts_on(content, frame, cover, to);
@@ -493,7 +504,7 @@ class Scenery {
         }
         const PlotFrame frame(content, *floor_);
         const std::size_t parent = node_of(frame);
-        const CoverField cover = cover_of(content, atlas_, step_of(middle_));
+        const CoverField& cover = cover_on(middle_, content);
         for (const auto& [list, detail] :
              {std::pair{&near, TrunkDetail{}}, {&far, TrunkDetail{10, 40}}}) {
             content.dead_wood = *list;
