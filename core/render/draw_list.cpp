@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 
 #include "core/problems.h"
 
@@ -49,7 +50,8 @@ void add_mesh(DrawList& list, const GlbMesh& mesh, const Affine& map,
               const glm::vec3& tint = glm::vec3(1.0F)) {
     const Placement placement = placement_of(map);
     for (const GlbPrimitive& primitive : mesh.primitives)
-        list.draws.push_back({primitive.mesh, primitive.material, placement, tint, mesh.role});
+        list.draws.push_back(
+            {primitive.mesh, primitive.mesh, {}, primitive.material, placement, tint, mesh.role});
 }
 
 void add_node(DrawList& list, const GlbScene& scene, const GlbNode& node, const Affine& parent) {
@@ -89,6 +91,12 @@ DrawList draw_list(const GlbScene& scene, const Parallel& parallel, int side) {
         if (!is_child[i] && scene.nodes[i].in_scene)
             add_node(list, scene, scene.nodes[i], Affine());
     if (list.triangles() == 0) throw GenerationError("a scene to draw has triangles");
+    std::map<const Mesh*, Bounds> boxes;
+    for (Draw& draw : list.draws) {
+        const auto [found, is_new] = boxes.try_emplace(draw.mesh);
+        if (is_new) found->second = bounds(*draw.mesh);
+        draw.box = found->second;
+    }
     list.box = box_of(list.draws);
     list.stands_on_ground = scene.stands_on_ground;
 

@@ -26,6 +26,8 @@ struct Placement {
 /// A primitive of the scene at one place.
 struct Draw {
     const Mesh* mesh = nullptr;
+    const Mesh* caster = nullptr;  ///< whose shadow is seen from afar: the mesh, or a coarser one
+    Bounds box;                    ///< of the mesh
     std::size_t material = 0;
     Placement placement;
     glm::vec3 tint{1.0F};  ///< factor of the base colour

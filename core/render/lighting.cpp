@@ -144,12 +144,13 @@ void ShadowMap::draw_whole(const DrawList& list, Level& level, bool has_foliage)
         if (!has_foliage && draw.role == GlbRole::foliage) continue;
         const glm::mat3 linear = to_image * draw.placement.linear;
         const glm::vec3 moved = to_image * draw.placement.translation + origin;
-        corners.resize(draw.mesh->positions.size());
+        const Mesh& mesh = *draw.caster;
+        corners.resize(mesh.positions.size());
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::vec3 at = linear * draw.mesh->positions[i] + moved;
+            const glm::vec3 at = linear * mesh.positions[i] + moved;
             corners[i] = snapped({at.x, at.y, at.z});
         }
-        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
+        const std::vector<std::uint32_t>& indices = mesh.indices;
         // Meshes are closed, so what stops light on one side leaves the mesh on the other. Depths
         // are those of the far side, which is dark by itself: the near side cannot shade itself.
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
@@ -179,6 +180,12 @@ void ShadowMap::draw_focus(const DrawList& list, Level& level, bool has_foliage)
         if (!has_foliage && draw.role == GlbRole::foliage) continue;
         const glm::mat3 linear = to_image * draw.placement.linear;
         const glm::vec3 moved = to_image * draw.placement.translation + origin;
+        // Its box is beside the image more often than not.
+        const glm::vec3 middle = linear * (0.5F * (draw.box.min + draw.box.max)) + moved,
+                        half = 0.5F * (draw.box.max - draw.box.min);
+        const glm::vec3 reach = glm::abs(linear[0]) * half.x + glm::abs(linear[1]) * half.y +
+                                glm::abs(linear[2]) * half.z + 1.0F;
+        if (misses(middle - reach, middle + reach)) continue;
         places.resize(draw.mesh->positions.size());
         glm::vec3 low(1e30F), high(-1e30F);
         for (std::size_t i = 0; i < places.size(); ++i) {
@@ -271,18 +278,20 @@ std::vector<ShadowMap> shadow_maps(const DrawList& list, std::span<const Light> 
 
 std::vector<std::vector<Ambient>> ambient_light(const DrawList& list, std::span<const Light> lights,
                                                 std::span<const ShadowMap> shadows,
+                                                std::span<const std::vector<bool>> used,
                                                 const Parallel& parallel) {
     constexpr std::size_t chunk = 4096;  // vertices of a task
     std::vector<std::vector<Ambient>> found(list.draws.size());
     std::vector<std::function<void()>> tasks;
     for (std::size_t d = 0; d < list.draws.size(); ++d) {
         const Draw& draw = list.draws[d];
-        const std::size_t count = draw.mesh->positions.size();
+        const std::size_t count = used[d].size();
         const bool is_translucent = list.materials[draw.material].transmission > 0.0F;
         found[d].resize(count);
         for (std::size_t from = 0; from < count; from += chunk)
             tasks.emplace_back([&, d, from, count, is_translucent] {
                 for (std::size_t i = from; i < std::min(from + chunk, count); ++i) {
+                    if (!used[d][i]) continue;
                     const glm::vec3 at = draw.placement.point(draw.mesh->positions[i]);
                     const glm::vec3 normal = glm::vec3(
                         unit_or(glm::dvec3(draw.placement.of_normals * draw.mesh->normals[i]), {}));

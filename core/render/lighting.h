@@ -135,13 +135,13 @@ struct Ambient {
     glm::vec3 behind{0.0F}, stopped_behind{0.0F};
 };
 
-/// Returns the light of the surroundings at the vertices of each draw.
+/// Returns the light of the surroundings at the vertices of each draw that are used; at others it is none.
 ///
 /// shadows  of the lights
-/// cost     O(vertices * lights)
-[[nodiscard]] std::vector<std::vector<Ambient>> ambient_light(const DrawList& list,
-                                                              std::span<const Light> lights,
-                                                              std::span<const ShadowMap> shadows,
-                                                              const Parallel& parallel);
+/// used     for each draw whether each of its vertices is, or nothing for a draw of which none is
+/// cost     O(used vertices * lights)
+[[nodiscard]] std::vector<std::vector<Ambient>> ambient_light(
+    const DrawList& list, std::span<const Light> lights, std::span<const ShadowMap> shadows,
+    std::span<const std::vector<bool>> used, const Parallel& parallel);
 
 }  // namespace sporeprint::render

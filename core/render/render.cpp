@@ -343,9 +343,9 @@ class Drawing {
           lamp_shadows_(shadow_maps(list, lights_.lamps, of_lamps.whole, parallel, of_lamps.focus)),
           shadows_(shadow_maps(list, lights_.surroundings, of_surroundings.whole, parallel,
                                of_surroundings.focus)),
-          ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
           visible_(
               visible(list, camera, params.width * samples, params.height * samples, parallel)),
+          ambient_(ambient_light(list, lights_.surroundings, shadows_, seen_vertices(), parallel)),
           scale_(glm::vec2(params.width, params.height) * 0.5F /
                  glm::vec2(camera.tangent_x, camera.tangent_y)) {}
 
@@ -400,10 +400,24 @@ class Drawing {
     const Sky* sky_;  ///< null in a studio
     PictureLights lights_;
     std::vector<ShadowMap> lamp_shadows_, shadows_;
-    std::vector<std::vector<Ambient>> ambient_;
     SeenScene visible_;
-    glm::vec2 scale_;  ///< pixels of a tangent of 1 to the right and up
+    std::vector<std::vector<Ambient>> ambient_;  ///< at the vertices of triangles that are seen
+    glm::vec2 scale_;                            ///< pixels of a tangent of 1 to the right and up
     GroundShadow ground_;
+
+    /// Returns for each draw which of its vertices are corners of triangles that are seen; nothing for a draw of which
+    /// none is.
+    [[nodiscard]] std::vector<std::vector<bool>> seen_vertices() const {
+        std::vector<std::vector<bool>> used(list_.draws.size());
+        for (std::size_t at = 0; at < visible_.nearness.size(); ++at) {
+            if (!visible_.shows(at) || (at > 0 && visible_.same(at, at - 1))) continue;
+            const Mesh& mesh = *list_.draws[visible_.draw[at]].mesh;
+            std::vector<bool>& own = used[visible_.draw[at]];
+            own.resize(mesh.positions.size(), false);
+            for (std::size_t i = 0; i < 3; ++i) own[mesh.indices[visible_.corner[at] + i]] = true;
+        }
+        return used;
+    }
 
     /// Returns the direction in the axes of the camera through a place, in samples from the upper
     /// left corner.
@@ -662,8 +676,11 @@ RgbaImage rendered_from(const StandingCamera& camera, const GlbScene& scene,
     require_valid(params);
     const render::Sky sky(outdoors.light);
     // What is near shows a part of each image, at its full size.
-    const render::DrawList list = render::draw_list(scene, parallel, largest_upload_side);
+    render::DrawList list = render::draw_list(scene, parallel, largest_upload_side);
     render::refuse_over_triangles(list);
+    for (render::Draw& draw : list.draws)
+        if (const auto found = outdoors.casters.find(draw.mesh); found != outdoors.casters.end())
+            draw.caster = found->second;
     const render::Camera from = render::standing_camera(
         camera, static_cast<double>(params.width) / static_cast<double>(params.height));
     RgbaImage image{params.width, params.height, {}};

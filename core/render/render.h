@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 
 #include "core/bytes.h"
 #include "core/gltf/glb.h"
@@ -59,6 +60,8 @@ struct Outdoors {
     Daylight light;
     Bounds near;            ///< the part of the scene whose shadows are seen from near
     bool shows_sky = true;  ///< behind the scene, in place of the background of the parameters
+    /// Coarser meshes that cast the shadows of some meshes of the scene beyond what is near; they live as long as it does.
+    std::map<const Mesh*, const Mesh*> casters = {};
 };
 
 /// Draws what a camera in a scene sees outdoors; what is nearer than 5 cm is left out. Nothing hides what is below the

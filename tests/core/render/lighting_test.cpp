@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "tests/support/solids.h"
 
@@ -83,6 +84,13 @@ TEST(Lighting, ABodyCastsAShadowOfItsOutline) {
     EXPECT_TRUE(map.reaches({5.0F, 0.0F, 0.0F}, glm::vec3(0.0F)));
 }
 
+/// Says of all vertices of all draws that they are used.
+std::vector<std::vector<bool>> all_of(const DrawList& list) {
+    std::vector<std::vector<bool>> used;
+    for (const Draw& draw : list.draws) used.emplace_back(draw.mesh->positions.size(), true);
+    return used;
+}
+
 TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
     const Mesh mesh = ball(0.05F, {0.0F, 0.2F, 0.0F});
     GlbScene scene = scene_of(mesh);
@@ -91,7 +99,7 @@ TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
     const DrawList list = draw_list(scene, in_turn);
     const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
     const auto found =
-        ambient_light(list, lights, shadow_maps(list, lights, 128, in_turn), in_turn);
+        ambient_light(list, lights, shadow_maps(list, lights, 128, in_turn), all_of(list), in_turn);
     ASSERT_EQ(found.size(), 2u);
     float stopped = 0.0F;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -105,13 +113,31 @@ TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
     EXPECT_GT(stopped, 0.3F) << "where they touch";
 }
 
+TEST(Lighting, IsComputedWhereItIsUsedAlone) {
+    const Mesh mesh = ball(0.05F, {0.0F, 0.2F, 0.0F});
+    GlbScene scene = scene_of(mesh);
+    scene.nodes.push_back({.name = "upper", .mesh = 0, .translation = {0.0, 0.1, 0.0}});
+    const DrawList list = draw_list(scene, in_turn);
+    const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
+    const std::vector<ShadowMap> shadows = shadow_maps(list, lights, 128, in_turn);
+    const auto all = ambient_light(list, lights, shadows, all_of(list), in_turn);
+    std::vector<std::vector<bool>> used(2);
+    used[0].assign(mesh.positions.size(), false);
+    used[0][7] = true;
+    const auto one = ambient_light(list, lights, shadows, used, in_turn);
+    EXPECT_TRUE(one[1].empty());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        EXPECT_EQ(one[0][i].arriving, i == 7 ? all[0][i].arriving : glm::vec3(0.0F));
+}
+
 TEST(Lighting, OnlyTranslucentSurfacesAskForLightFromBehind) {
     const Mesh mesh = plate(0.1F, 0.002F, {0.0F, 0.2F, 0.0F});
     GlbScene scene = scene_of(mesh);
     const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
     const auto found = [&] {
         const DrawList list = draw_list(scene, in_turn);
-        return ambient_light(list, lights, shadow_maps(list, lights, 128, in_turn), in_turn)[0];
+        return ambient_light(list, lights, shadow_maps(list, lights, 128, in_turn), all_of(list),
+                             in_turn)[0];
     };
     const std::vector<Ambient> opaque = found();
     scene.materials[0].transmission.factor = 0.5;

@@ -58,6 +58,25 @@ TEST(Render, FromAPlaceInTheSceneShowsWhatIsBeforeTheCamera) {
     EXPECT_TRUE(names(refusal([&] { share({0, 0, 0}, {0, 0, 1}, 0.5); }), "/angle_deg"));
 }
 
+TEST(Render, WhatIsFarCastsTheShadowOfItsCoarserMesh) {
+    // A level plate high above the ground, whose coarser mesh is far away: no shadow falls on what is seen.
+    const Mesh ground = plate(40.0F, 0.01F, {0.0F, 0.0F, 0.0F}),
+               roof = plate(8.0F, 0.01F, {0.0F, 6.0F, -10.0F}),
+               elsewhere = plate(1.0F, 0.01F, {30.0F, 6.0F, 30.0F});
+    GlbScene scene = scene_of(ground);
+    scene.meshes.push_back({"roof", {{&roof, 0, {}}}});
+    scene.nodes.push_back({.name = "roof", .mesh = 1});
+    Outdoors outdoors{{{0.0, 1.0, 0.0}}, {glm::vec3(0.0F), glm::vec3(0.1F)}, false};
+    const auto middle = [&] {
+        return pixel(
+            rendered_from({{0.0, 2.0, 0.0}, {0.0, 0.0, -10.0}, 40.0}, scene, square(64), outdoors),
+            32, 32)[0];
+    };
+    const int shaded = middle();
+    outdoors.casters[&roof] = &elsewhere;
+    EXPECT_GT(middle(), shaded + 20);
+}
+
 // Each pixel of a close-up of a wall much larger than its frame shows the wall.
 TEST(Render, ACloseUpShowsPartsOfTrianglesWithoutGaps) {
     const Mesh mesh = ball(1.0F, {0.0F, 2.0F, 0.0F}, 12, 6);
