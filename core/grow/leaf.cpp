@@ -138,8 +138,10 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
         params.shape.relief = paint.relief;
         params.shape.eaten = paint.eaten;
         params.shape.venation = paint.venation;
-        const RawImages images = leaf_images(shape_of(params), paint.palette, paint.autumn,
-                                             paint.seed, paint.texture_size, execution.parallel);
+        LeafPalette palette = paint.palette;
+        palette.summer = unfolding(palette.summer, paint.spring);
+        const RawImages images = leaf_images(shape_of(params), palette, paint.autumn, paint.seed,
+                                             paint.texture_size, execution.parallel);
         throw_if_cancelled(execution);
         return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
     });

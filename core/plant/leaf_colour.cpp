@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -53,6 +54,25 @@ double gradation(GradationLaw law, double ratio) {
             return std::floor(std::min(4.0 * x, 3.0)) / 3.0;
     }
     return x;
+}
+
+LeafColours unfolding(const LeafColours& summer, double spring) {
+    // Towards the colour of young leaves of beeches, which keeps half of the differences within a leaf.
+    constexpr glm::dvec3 young(158.0, 190.0, 74.0);
+    constexpr double most = 0.6;
+    const auto paler = [&](const Colour& colour) {
+        const glm::dvec3 own(colour.r, colour.g, colour.b);
+        const glm::dvec3 mix = mixed(own, young, most * spring);
+        const auto rounded = [](double value) {
+            return static_cast<std::uint8_t>(std::floor(value + 0.5));
+        };
+        return Colour{rounded(mix.r), rounded(mix.g), rounded(mix.b)};
+    };
+    LeafColours colours = summer;
+    for (Colour LeafColours::*part :
+         {&LeafColours::vein, &LeafColours::inner, &LeafColours::border, &LeafColours::tip})
+        colours.*part = paler(summer.*part);
+    return colours;
 }
 
 LeafColourMap::Season LeafColourMap::season(const LeafColours& colours) {

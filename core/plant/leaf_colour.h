@@ -69,6 +69,11 @@ struct LeafColours {
 };
 static_assert(well_described<LeafColours>());
 
+/// Returns the summer colours of a leaf some time before: as it unfolds, it has less green and more light passes.
+///
+/// spring  0: summer; 1: unfolding
+[[nodiscard]] LeafColours unfolding(const LeafColours& summer, double spring);
+
 /// The colours of a kind of leaf through the year: the upper face in summer, in its first and in
 /// its last autumn colour, and how much paler the lower face is.
 struct LeafPalette {

@@ -13,6 +13,7 @@ LeafPaint paint_of(const LeafParams& params) {
     LeafPaint paint;
     paint.seed = params.seed;
     paint.variation = params.variation;
+    paint.spring = params.spring;
     paint.autumn = params.autumn;
     paint.texture_size = {params.texture_size >> params.lod};
     paint.relief = params.shape.relief;

@@ -18,6 +18,7 @@ struct LeafParams {
     std::uint32_t seed = 1;
     double size = 1.0;
     double variation = 0.5;
+    double spring = 0.0;
     double autumn = 0.0;
     int lod = 0;
     std::optional<int> triangles;
@@ -42,6 +43,11 @@ struct LeafParams {
                                   .max = 1,
                                   .doc = "How far an individual departs from the shape that is "
                                          "described."});
+        visit(&P::spring, Info{.name = "spring",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "From summer (0) back to leaves that unfold (1), which are "
+                                      "paler and yellower."});
         visit(&P::autumn, Info{.name = "autumn",
                                .min = 0,
                                .max = 1,
@@ -67,6 +73,7 @@ static_assert(well_described<LeafParams>());
 struct LeafPaint {
     std::uint32_t seed = 1;
     double variation = 0.5;
+    double spring = 0.0;
     double autumn = 0.0;
     ImageSide texture_size{1024};
     double relief = 0.6;
@@ -79,6 +86,7 @@ struct LeafPaint {
         using L = LeafParams;
         visit(&P::seed, info_of<L>("seed"));
         visit(&P::variation, info_of<L>("variation"));
+        visit(&P::spring, info_of<L>("spring"));
         visit(&P::autumn, info_of<L>("autumn"));
         visit(&P::texture_size,
               Info{.name = "side", .unit = "texels", .doc = "Side of this image."});

@@ -24,6 +24,7 @@ TreePaint paint_of(const TreeParams& params) {
 
 LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset) {
     LeafParams leaf = params_of(preset);
+    leaf.spring = params.spring;
     leaf.autumn = params.autumn;
     // All leaves of a tree share one image: the same hole in each would be seen.
     leaf.shape.eaten = leaf.palette.marks = 0.0;

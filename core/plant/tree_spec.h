@@ -53,6 +53,7 @@ inline constexpr int first_far_lod = impostor_lod + 1, last_far_lod = impostor_l
 struct TreeParams {
     std::uint32_t seed = 1;
     double size = 1.0;
+    double spring = 0.0;
     double autumn = 0.0;
     int lod = 0;
     std::optional<int> triangles;
@@ -79,6 +80,7 @@ struct TreeParams {
                              .doc = "The individual: same seed and parameters, same tree, bit for "
                                     "bit."});
         visit(&P::size, info_of<L>("size"));
+        visit(&P::spring, info_of<L>("spring"));
         visit(&P::autumn, info_of<L>("autumn"));
         visit(&P::lod, Info{.name = "lod",
                             .min = 0,

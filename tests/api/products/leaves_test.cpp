@@ -250,8 +250,8 @@ TEST(LeafSchema, SaysWhoseDefaultsAreThePresets) {
         EXPECT_EQ(own.erase(option.name) + preset.erase(option.name), 1U);
     });
     EXPECT_EQ(preset.erase("lod"), 1U) << "which the profile sets";
-    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "variation", "autumn", "texture_size",
-                                          "textures"}));
+    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "variation", "spring", "autumn",
+                                          "texture_size", "textures"}));
     for (const char* name : {"venation.lobes", "length", "paler_below", "fallen.tip"})
         EXPECT_TRUE(preset.contains(name)) << name;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 
 #include "core/math/elementary.h"
 #include "core/plant/leaf.h"
@@ -55,6 +56,21 @@ TEST(LeafColour, AffinityGoesFromTheMainVeinToTheBorderAndHomothetyToTheTip) {
     LaminaPlace on_vein = between(0.0, 0.0);
     on_vein.from_main = 0.0;
     expect_colour(on_vein, linear(summer.vein));
+}
+
+TEST(LeafColour, LeavesThatUnfoldArePalerAndYellower) {
+    for (const LeafPreset& preset : atlas().leaves()) {
+        const std::string id = preset.id.string();
+        const LeafColours& summer = preset.palette.summer;
+        EXPECT_EQ(unfolding(summer, 0.0), summer) << id;
+        const LeafColours young = unfolding(summer, 1.0), younger_half = unfolding(summer, 0.5);
+        const glm::dvec3 before = linear(young.inner), half = linear(younger_half.inner),
+                         after = linear(summer.inner);
+        EXPECT_GT(before.g, half.g) << id;
+        EXPECT_GT(half.g, after.g) << id;
+        EXPECT_GT(before.r / before.g, after.r / after.g) << id;
+        EXPECT_EQ(young.vein_width, summer.vein_width) << id;
+    }
 }
 
 TEST(LeafColour, AutumnBeginsAtTheBorder) {

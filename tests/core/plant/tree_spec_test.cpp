@@ -51,6 +51,7 @@ TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
     other.look.shape.fork_deg = 50.0;
     other.look.leaves.per_tip = 1;
     other.look.leaf.id = "maple";
+    other.spring = 1.0;
     other.autumn = 0.5;
     EXPECT_EQ(paint_of(other), paint_of(params));
     EXPECT_NE(paint_of(leaf_of(other, *leaf_preset("maple"))),
@@ -66,10 +67,12 @@ TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
 TEST(TreeSpec, UsesTheImagesOfItsLeafAloneUnmarked) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.seed = 77;
+    params.spring = 0.5;
     params.autumn = 0.4;
     params.texture_size.value = 256;
     params.lod = 1;
     LeafParams alone = params_of(*leaf_preset("oak"));
+    alone.spring = 0.5;
     alone.autumn = 0.4;
     alone.texture_size.value = 256;
     alone.lod = 1;
