@@ -423,6 +423,7 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
             foliage = std::move(far.foliage);
         } else {
             bark = bark_of(tree, lod);
+            if (!params.foot_soil) plant_foot(bark, tree);
             flare_roots(bark, tree, flare, params.seed, lod);
             if (params.foot_soil) add_foot_soil(bark, tree, flare, params.seed, lod);
             foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);

@@ -78,6 +78,17 @@ TreeCount count_of_flare(const TreeShape& shape, int lod) {
     return count;
 }
 
+void plant_foot(Bark& bark, const Tree& tree) {
+    const auto radius = static_cast<float>(tree.skeleton.nodes.front().radius);
+    const int trunk = tree.ramification.nodes.front().order;
+    for (std::size_t i = 0; i < bark.mesh.positions.size(); ++i) {
+        glm::vec3& at = bark.mesh.positions[i];
+        // Its first ring and what closes it.
+        if (tree.ramification.nodes[bark.edges[i]].order == trunk && at.y < 0.05F * radius)
+            at.y -= radius;
+    }
+}
+
 void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed, int lod) {
     if (flare <= 0.0) return;
     const double radius = tree.skeleton.nodes.front().radius;

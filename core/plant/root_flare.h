@@ -18,6 +18,10 @@ namespace sporeprint {
 /// seed   of the places of the roots
 void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed, int lod);
 
+/// Lets the trunk reach below the ground by its radius, for a tree that stands on ground that may slope. Before
+/// flare_roots().
+void plant_foot(Bark& bark, const Tree& tree);
+
 /// Returns slightly high estimates of the vertices and triangles that flare_roots() adds.
 [[nodiscard]] TreeCount count_of_flare(const TreeShape& shape, int lod);
 

@@ -21,8 +21,8 @@ namespace {
 /// and day, mm.
 constexpr double all_snow = -1.0, all_rain = 1.5, melting = 2.8;
 
-/// The day on which the snow of a winter begins.
-constexpr int first_day = 274;
+/// Returns the day on which the snow of a winter begins at the earliest.
+int first_day_of(const ClimateParams& climate) { return climate.latitude_deg < 0.0 ? 92 : 274; }
 
 /// Water as snow that covers everything, mm.
 constexpr double closed_cover = 7.0;
@@ -46,16 +46,16 @@ double snow_after(double before, const WeatherDay& day) {
 }  // namespace
 
 double snow_on(const ClimateParams& climate, std::uint32_t seed, int year, int day) {
+    const int first_day = first_day_of(climate);
     double water = 0.0;
     if (day < first_day && year > 0) {
         const WeatherYear before = weather_of(climate, seed, year - 1);
-        for (std::size_t i = first_day - 1; i < before.size(); ++i)
+        for (auto i = static_cast<std::size_t>(first_day - 1); i < before.size(); ++i)
             water = snow_after(water, before[i]);
     }
     const WeatherYear now = weather_of(climate, seed, year);
-    for (std::size_t i = day < first_day ? 0 : first_day - 1; i < static_cast<std::size_t>(day);
-         ++i)
-        water = snow_after(water, now[i]);
+    for (int i = day < first_day ? 0 : first_day - 1; i < day; ++i)
+        water = snow_after(water, now[static_cast<std::size_t>(i)]);
     return water;
 }
 

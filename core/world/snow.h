@@ -16,6 +16,12 @@ namespace sporeprint {
 /// source           melt by degree days [Hock2003]
 [[nodiscard]] double snow_on(const ClimateParams& climate, std::uint32_t seed, int year, int day);
 
+/// Returns the depth of settled snow, metres.
+///
+/// water   that lies as snow, mm
+/// source  a density of 200 kg/m3, between new and old snow
+[[nodiscard]] constexpr double snow_depth(double water) { return water / 200.0; }
+
 /// Returns the share of the ground that snow covers, 0..1.
 ///
 /// water  that lies as snow, mm

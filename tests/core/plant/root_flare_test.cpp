@@ -38,6 +38,24 @@ double reach(const Mesh& mesh, double below) {
     return most;
 }
 
+TEST(PlantFoot, LetsTheTrunkAloneReachBelowTheGround) {
+    for (const char* preset : {"broadleaf", "birch", "spruce"})
+        for (int lod = 0; lod < tree_lods; ++lod) {
+            SCOPED_TRACE(std::string(preset) + " at level " + std::to_string(lod));
+            const Grown before = grown(preset, 3, lod);
+            Grown after = before;
+            plant_foot(after.bark, after.tree);
+            expect_valid(after.bark.mesh);
+            EXPECT_LT(bounds(after.bark.mesh).min.y,
+                      bounds(before.bark.mesh).min.y - 0.9 * after.radius);
+            EXPECT_GT(volume(after.bark.mesh), volume(before.bark.mesh));
+            for (std::size_t i = 0; i < after.bark.mesh.positions.size(); ++i)
+                if (static_cast<double>(before.bark.mesh.positions[i].y) > 0.1 * before.radius) {
+                    EXPECT_EQ(after.bark.mesh.positions[i], before.bark.mesh.positions[i]);
+                }
+        }
+}
+
 TEST(RootFlare, WidensTheFootAndNothingElse) {
     for (const char* preset : {"broadleaf", "birch", "spruce", "poplar"})
         for (const std::uint32_t seed : {1U, 2U, 3U})

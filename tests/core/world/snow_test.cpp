@@ -27,6 +27,18 @@ TEST(Snow, LiesInColdWintersAndNeverInWarmOnes) {
     for (int year = 0; year < 12; ++year) EXPECT_EQ(snow_on(climate_of(8.0), 7, year, 200), 0.0);
 }
 
+TEST(Snow, LiesInJulyInTheSouth) {
+    ClimateParams climate = climate_of(2.0);
+    climate.latitude_deg = -climate.latitude_deg;
+    double july = 0.0, january = 0.0;
+    for (int year = 0; year < 12; ++year) {
+        july += snow_on(climate, 7, year, 200);
+        january += snow_on(climate, 7, year, 20);
+    }
+    EXPECT_GT(july, 50.0);
+    EXPECT_LT(january, 0.2 * july);
+}
+
 TEST(Snow, GrowsByTheRainOfADayAtMostAndGoesOnOverNewYear) {
     const ClimateParams climate = climate_of(1.0);
     for (int year = 1; year < 5; ++year) {
