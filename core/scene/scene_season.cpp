@@ -230,6 +230,7 @@ class SceneSeason {
                 body.id = random.identifier();
                 body.species = static_cast<std::uint8_t>(index_);
                 body.genet = genet.genet.id;
+                body.host = genet.genet.host;
                 set_times(body, species_->ecology.body, cluster.flush, end_, random);
                 const std::optional<Foot> foot =
                     foot_at(cluster.middle, fruit.cluster_spread * right + fruit.tuft_spread * x,

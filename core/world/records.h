@@ -107,6 +107,7 @@ struct FruitBody {
     WorldTime emerged = 0, matured = 0, gone = 0;
     std::uint8_t species = 0;  ///< which of the species of the world
     std::uint64_t genet = 0;   ///< id of its mycelium
+    std::uint64_t host = 0;    ///< that of the mycelium (Genet), 0 if none
     std::uint64_t trunk = 0;   ///< id of the tree or dead trunk that it grows on, 0 on the ground
     double height = 0.0;       ///< above the ground, metres
     double facing = 0.0;       ///< on wood: direction away from it, radians from east to north

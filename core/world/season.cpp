@@ -348,6 +348,7 @@ class Season {
                            middle.y + units(fruit.tuft_spread * y)};
                 body.species = static_cast<std::uint8_t>(index_);
                 body.genet = genet.id;
+                body.host = genet.host;
                 set_times(body, cluster.flush, random);
                 if (!is_near(body.at, spacing_)) continue;
                 // Bodies of a cluster near the margin may stand before it, but not on another mycelium.
@@ -448,6 +449,7 @@ class Season {
                 body.id = random.identifier();
                 body.species = static_cast<std::uint8_t>(index_);
                 body.genet = genet.id;
+                body.host = genet.host;
                 body.trunk = wood.id;
                 set_times(body, cluster.flush, random);
                 body.gone = std::min(body.gone, stands ? wood.fell : wood.gone);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <map>
 
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
@@ -34,9 +33,6 @@ std::vector<ScenePlacement> placements_on(const SceneFungi& fungi,
                                           const std::vector<SceneBody>& bodies, WorldTime time,
                                           const std::vector<bool>& lateral,
                                           const std::vector<bool>& chosen) {
-    std::map<std::uint64_t, std::uint64_t> hosts;
-    for (const std::vector<SceneGenet>& list : fungi.genets)
-        for (const SceneGenet& one : list) hosts[one.genet.id] = one.genet.host;
     const SceneHabitat& habitat = *fungi.habitat;
     std::vector<ScenePlacement> out;
     for (const SceneBody& body : bodies) {
@@ -50,8 +46,7 @@ std::vector<ScenePlacement> placements_on(const SceneFungi& fungi,
         one.row.began = record.emerged;
         one.row.age = age_at(record, time);
         one.row.seed = record.seed();
-        if (const auto host = hosts.find(record.genet); host != hosts.end())
-            one.row.host = host->second;
+        one.row.host = record.host;
         one.row.trunk = record.trunk;
         one.soil = habitat.substrates.soils[body.surfel];
         one.material = habitat.surfels()[body.surfel].material;

@@ -104,10 +104,10 @@ double open_on(const FlowerKind& kind, int day) {
            (1.0 - smooth_step(kind.last - fading, kind.last, day));
 }
 
-std::vector<GlbTransform> flowers_on(const FlowerKind& kind, const PlotContent& content,
-                                     const PlotFrame& frame, const CoverField& cover, double rim) {
+std::vector<GlbTransform> places_of(const FlowerKind& kind, const PlotContent& content,
+                                    const PlotFrame& frame, const CoverField& cover, double rim) {
     std::vector<GlbTransform> places;
-    const double open = open_on(kind, day_of_year(content.time));
+    const double open = open_on(kind, content.northern_day());
     if (open <= 0.0) return places;
     const auto number = static_cast<int>(&kind - kinds.data());
     const WorldBox& box = frame.box();
@@ -148,6 +148,17 @@ std::vector<GlbTransform> flowers_on(const FlowerKind& kind, const PlotContent& 
             }
         }
     return places;
+}
+
+std::vector<PlotFlowers> flowers_on(const PlotContent& content, const PlotFrame& frame,
+                                    const CoverField& cover, double rim) {
+    std::vector<PlotFlowers> flowers;
+    for (const FlowerKind& kind : flower_kinds()) {
+        std::vector<GlbTransform> places = places_of(kind, content, frame, cover, rim);
+        if (!places.empty())
+            flowers.push_back({{flower_mesh(kind), std::move(places)}, std::string(kind.name)});
+    }
+    return flowers;
 }
 
 }  // namespace sporeprint

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/gltf/glb.h"
+#include "core/grow/world/mesh_copies.h"
 #include "core/grow/world/plot.h"
 #include "core/grow/world/plot_places.h"
 #include "core/mesh/mesh.h"
@@ -40,9 +42,19 @@ struct FlowerKind {
 /// another one are those of the other.
 ///
 /// rim  distance from the border within which none stands, metres
-[[nodiscard]] std::vector<GlbTransform> flowers_on(const FlowerKind& kind,
-                                                   const PlotContent& content,
-                                                   const PlotFrame& frame, const CoverField& cover,
-                                                   double rim = 0.0);
+[[nodiscard]] std::vector<GlbTransform> places_of(const FlowerKind& kind,
+                                                  const PlotContent& content,
+                                                  const PlotFrame& frame, const CoverField& cover,
+                                                  double rim = 0.0);
+
+/// The flowers of one kind on a plot.
+struct PlotFlowers : MeshCopies {
+    std::string name;
+};
+
+/// Returns those of the kinds of which some stand there, with places_of() each.
+[[nodiscard]] std::vector<PlotFlowers> flowers_on(const PlotContent& content,
+                                                  const PlotFrame& frame, const CoverField& cover,
+                                                  double rim = 0.0);
 
 }  // namespace sporeprint

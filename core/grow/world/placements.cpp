@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <memory>
 
 #include "core/grow/world/parts.h"
@@ -50,18 +49,6 @@ struct Request {
 glm::dvec4 turned_to(const glm::dvec3& up) {
     const glm::dvec3 right = square_to(up, {1.0, 0.0, 0.0});
     return quaternion_of({right, up, glm::cross(right, up)});
-}
-
-/// The hosts of mycelia by their ids.
-std::map<std::uint64_t, std::uint64_t> hosts_round(const Request& request, CellIndex block) {
-    std::map<std::uint64_t, std::uint64_t> hosts;
-    const int last = epoch_of(request.year()), first = epoch_of(std::max(request.year() - 1, 0));
-    for (int epoch = first; epoch <= last; ++epoch)
-        with_surroundings(request.world, block, epoch * epoch_years, request.execution,
-                          [&](const Fungi&, const RegionYear& input) {
-                              for (const Genet& genet : input.genets) hosts[genet.id] = genet.host;
-                          });
-    return hosts;
 }
 
 /// The placements of one block.
@@ -143,7 +130,6 @@ class BlockPlacements {
     void add_fungi(const PlotFrame& frame) {
         const auto season =
             season_of_world(request_.world, block_, request_.year(), request_.execution);
-        const std::map<std::uint64_t, std::uint64_t> hosts = hosts_round(request_, block_);
         BearingTrunks trunks(content_, frame);
         const std::vector<bool>& chosen = request_.choice.species;
         for (const FruitBody& body : season->bodies) {
@@ -158,8 +144,7 @@ class BlockPlacements {
             row.began = body.emerged;
             row.age = age_at(body, request_.time);
             row.seed = body.seed();
-            if (const auto host = hosts.find(body.genet); host != hosts.end())
-                row.host = host->second;
+            row.host = body.host;
             row.trunk = body.trunk;
             row.wood = kind_of(body.trunk);
             rows_.push_back(row);
@@ -174,18 +159,19 @@ class BlockPlacements {
     }
 };
 
-/// Returns the individuals that show the trees of a world.
-std::vector<PlotTrees::Shape> shapes_of(const Request& request) {
+/// Finds the individuals that show the trees of a world, and their sizes.
+void find_trees(Request& request, std::vector<TreeSpec>& specs) {
     const PlotContent content = content_of(request.world, {}, request.time);
-    std::vector<PlotTrees::Shape> shapes(content.kinds.size() * tree_shapes_of_kind);
+    specs.resize(content.kinds.size() * tree_shapes_of_kind);
+    request.tree_sizes.resize(specs.size());
     std::vector<std::function<void()>> tasks;
-    for (std::size_t i = 0; i < shapes.size(); ++i)
+    for (std::size_t i = 0; i < specs.size(); ++i)
         tasks.emplace_back([&, i] {
-            shapes[i] = tree_shape(content, i / tree_shapes_of_kind, i % tree_shapes_of_kind,
-                                   lod_of_trees, request.atlas, request.execution);
+            specs[i] = tree_spec(content, i / tree_shapes_of_kind, i % tree_shapes_of_kind,
+                                 lod_of_trees, request.atlas);
+            request.tree_sizes[i] = tree_size(specs[i], request.atlas, request.execution);
         });
     request.execution.parallel(tasks);
-    return shapes;
 }
 
 }  // namespace
@@ -195,11 +181,7 @@ Placements placements_in(const World& world, const WorldBox& box, WorldTime time
                          const ExecutionContext& execution) {
     Request request{world, box, time, choice, atlas, execution, {}, {}};
     Placements out;
-    if (choice.has(PlacementKind::tree))
-        for (const PlotTrees::Shape& shape : shapes_of(request)) {
-            request.tree_sizes.push_back(shape.size);
-            out.trees.push_back(shape.spec);
-        }
+    if (choice.has(PlacementKind::tree)) find_trees(request, out.trees);
     for (const std::string& id : world.species_ids) {
         const AtlasEntry* const entry = atlas.find(id);
         request.is_lateral.push_back(entry != nullptr && entry->species.is_lateral());

@@ -14,6 +14,7 @@
 #include "core/grow/painting.h"
 #include "core/grow/translucency.h"
 #include "core/grow/wood.h"
+#include "core/grow/world/body_nodes.h"
 #include "core/grow/world/flowers.h"
 #include "core/grow/world/plot_bodies.h"
 #include "core/grow/world/plot_parts.h"
@@ -187,17 +188,11 @@ class PlotScene {
     void add_trees() {
         std::vector<std::size_t> mesh_of;
         for (const PlotTrees::Shape& shape : trees_.shapes) {
-            const TreeParams& params = shape.spec.params;
-            const std::size_t bark = materials_.bark(shape.spec);
-            std::vector<GlbPrimitive> primitives{{primitive_mesh(shape.meshes->bark), bark, {}}};
-            if (!shape.meshes->leaves.positions.empty()) {
-                const std::string leaf = params.look.leaf.id.string();
-                const std::size_t leaves =
-                    materials_.leaves(leaf, leaf, paint_of(leaf_of(params, atlas_)));
-                primitives.push_back({primitive_mesh(shape.meshes->leaves), leaves, {}});
-            }
             mesh_of.push_back(scene_.meshes.size());
-            scene_.meshes.push_back({level_name(shape.name, params.lod), std::move(primitives)});
+            scene_.meshes.push_back(
+                {level_name(shape.name, shape.spec.params.lod),
+                 materials_.tree(shape.spec, *primitive_mesh(shape.meshes->bark),
+                                 *primitive_mesh(shape.meshes->leaves))});
             vertices_ += shape.meshes->vertices();
         }
         std::size_t number = 0;
@@ -226,6 +221,7 @@ class PlotScene {
 
     void add_logs(std::vector<PlotLog> logs) {
         std::size_t number = 0;
+        Mesh snow;
         for (PlotLog& log : logs) {
             const std::size_t wood = materials_.wood({log.wood, wood_side({wood_texture_side}, 0)});
             without_images(log.mesh);
@@ -233,7 +229,10 @@ class PlotScene {
                 std::string(log.lies ? "log_" : "snag_") + std::to_string(++number);
             log_nodes_.emplace_back(log.id,
                                     add_single(std::move(log.mesh), name, wood, GlbRole::body));
+            append(snow, log.snow);
         }
+        if (!snow.positions.empty())
+            add_single(std::move(snow), "snow", materials_.plain("snow"), GlbRole::body);
     }
 
     void add_leaves() {
@@ -254,14 +253,8 @@ class PlotScene {
     }
 
     void add_flowers(const PlotFrame& frame, const CoverField& cover) {
-        for (const FlowerKind& kind : flower_kinds()) {
-            PlotLeaves own;
-            own.places = flowers_on(kind, content_, frame, cover, rim_of_leaves);
-            if (own.places.empty()) continue;
-            own.one = flower_mesh(kind);
-            add_single(own.merged(), std::string(kind.name), materials_.plain("flowers"),
-                       GlbRole::foliage);
-        }
+        for (const PlotFlowers& own : flowers_on(content_, frame, cover, rim_of_leaves))
+            add_single(own.merged(), own.name, materials_.plain("flowers"), GlbRole::foliage);
     }
 
     void add_grass(Mesh grass) {
@@ -271,59 +264,18 @@ class PlotScene {
     }
 
     void add_bodies() {
-        std::vector<std::size_t> material_of_shape;
-        for (const PlotBodies::Shape& shape : bodies_.shapes)
-            material_of_shape.push_back(materials_.skin(shape.spec, shape.individual));
         const bool is_crowded = scene_.nodes.size() + bodies_.bodies.size() > most_plot_nodes;
-        if (is_crowded || options_.instancing == LeafInstancing::gpu) {
-            add_grouped_bodies(material_of_shape);
-            return;
-        }
-        std::vector<std::size_t> mesh_of;
-        for (std::size_t i = 0; i < bodies_.shapes.size(); ++i) {
-            mesh_of.push_back(scene_.meshes.size());
-            scene_.meshes.push_back(
-                {bodies_.shapes[i].name, {{&bodies_.shapes[i].mesh, material_of_shape[i], {}}}});
-            vertices_ += bodies_.shapes[i].mesh.positions.size();
-        }
-        std::size_t number = 0;
-        for (const PlotBodies::Placed& body : bodies_.bodies) {
-            const PlotBodies::Shape& shape = bodies_.shapes[body.shape];
-            body_nodes_.push_back(scene_.nodes.size());
-            scene_.nodes.push_back({.name = shape.name + '_' + std::to_string(++number),
-                                    .mesh = mesh_of[body.shape],
-                                    .translation = body.place.translation,
-                                    .rotation = body.place.rotation});
-            triangles_ += shape.mesh.triangles();
-            include(shape.mesh, body.place);
-        }
-    }
-
-    /// Adds one node for all bodies that look alike.
-    void add_grouped_bodies(const std::vector<std::size_t>& material_of_shape) {
-        std::vector<PlotLeaves> groups(bodies_.shapes.size());
-        std::vector<std::size_t> node_of(bodies_.shapes.size());
-        for (const PlotBodies::Placed& body : bodies_.bodies)
-            groups[body.shape].places.push_back(body.place);
-        for (std::size_t i = 0; i < groups.size(); ++i) {
-            const PlotBodies::Shape& shape = bodies_.shapes[i];
-            node_of[i] = scene_.nodes.size();
-            if (options_.instancing == LeafInstancing::gpu) {
-                vertices_ += shape.mesh.positions.size();
-                triangles_ += shape.mesh.triangles() * groups[i].places.size();
-                scene_.nodes.push_back({.name = shape.name,
-                                        .mesh = scene_.meshes.size(),
-                                        .instances = groups[i].places});
-                scene_.meshes.push_back({shape.name, {{&shape.mesh, material_of_shape[i], {}}}});
-            } else {
-                groups[i].one = shape.mesh;
-                Mesh all = groups[i].merged();
-                all.tints.clear();
-                add_single(std::move(all), shape.name, material_of_shape[i], GlbRole::body);
-            }
-        }
-        for (const PlotBodies::Placed& body : bodies_.bodies)
-            body_nodes_.push_back(node_of[body.shape]);
+        BodyNodes added = sporeprint::add_bodies(scene_, materials_, bodies_,
+                                                 options_.instancing == LeafInstancing::gpu
+                                                     ? BodyGrouping::instanced
+                                                 : is_crowded ? BodyGrouping::merged
+                                                              : BodyGrouping::none,
+                                                 meshes_);
+        body_nodes_ = std::move(added.nodes);
+        vertices_ += added.vertices;
+        triangles_ += added.triangles;
+        box_.min = glm::min(box_.min, added.box.min);
+        box_.max = glm::max(box_.max, added.box.max);
     }
 
     Value extras_value() const {
@@ -356,6 +308,12 @@ class PlotScene {
 };
 
 }  // namespace
+
+int PlotContent::northern_day() const {
+    constexpr int half_a_year = 182, days = 365;
+    const int day = day_of_year(time);
+    return is_southern ? (day - 1 + half_a_year) % days + 1 : day;
+}
 
 int day_of_year(WorldTime time) {
     const WorldTime of_year = time % ticks_of_year;
@@ -405,7 +363,7 @@ CoverField cover_of(const PlotContent& content, const Atlas& atlas, double step)
     const std::vector<LeafLitter> litter = litter_of(content, atlas);
     CoverConditions at;
     at.acidity = content.acidity;
-    at.day = day_of_year(content.time);
+    at.day = content.northern_day();
     for (std::size_t kind = 0; kind < litter.size(); ++kind)
         at.has_needles[kind] = has_needles(litter[kind]);
     std::vector<LitterSource> sources;
@@ -437,7 +395,7 @@ RawImages floor_of(const PlotContent& content, const CoverField& cover, int side
     paint.box = box_of(content);
     paint.side = side;
     paint.wetness = std::clamp(content.soil_water / 100.0, 0.0, 1.0);
-    paint.day = day_of_year(content.time);
+    paint.day = content.northern_day();
     paint.kinds = litter;
     paint.cover = &cover;
     paint.pieces = pieces;
@@ -451,6 +409,9 @@ LeafState leaves_on(int day) {
     constexpr int first_leaves = 112, last_leaves = 316;
     LeafState state;
     state.bare = day < first_leaves || day > last_leaves;
+    // Full green comes about six weeks after the leaves.
+    const double young = 1.0 - smooth_step(first_leaves + 6.0, first_leaves + 46.0, day);
+    state.spring = state.bare ? 0.0 : std::floor(young * 8.0 + 0.5) / 8.0;
     const double turned = 0.9 * smooth_step(258.0, 312.0, day);
     state.autumn = state.bare ? 0.0 : std::floor(turned * 16.0 + 0.5) / 16.0;
     return state;

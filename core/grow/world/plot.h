@@ -37,14 +37,20 @@ struct PlotContent {
     double soil_water = 80.0;  ///< of the day, mm (WeatherDay)
     /// Mean of the autumns, mm: on which the moss depends, and other cover that does not change with one rain.
     double lasting_water = 80.0;
-    double snow = 0.0;     ///< share of the ground that snow covers, 0..1
-    double acidity = 0.5;  ///< of the soil, 0..1
-    double micro = 0.06;   ///< amplitude of the finest relief, metres
-    double wind_to = 0.0;  ///< direction to which the wind blows, radians from east to north
+    double snow = 0.0;        ///< share of the ground that snow covers, 0..1
+    double snow_depth = 0.0;  ///< where it lies, metres
+    double acidity = 0.5;     ///< of the soil, 0..1
+    double micro = 0.06;      ///< amplitude of the finest relief, metres
+    double wind_to = 0.0;     ///< direction to which the wind blows, radians from east to north
+    bool is_southern =
+        false;  ///< it lies south of the equator, where seasons are those of half a year later
     /// The share of the light of the open sky at a place in summer, metres; 1 if there is none.
     std::function<double(double, double)> light = {};
     /// The litter that falls at a place, as litterfall() returns it; that of the trees if there is none.
     std::function<std::array<double, most_kinds>(double, double)> fall = {};
+
+    /// Returns the day of the year on which leaves, grass and flowers of the north are as those of the plot on its day.
+    [[nodiscard]] int northern_day() const;
 };
 
 /// How far trees beyond a plot affect it, metres.
@@ -118,8 +124,10 @@ inline constexpr std::size_t most_plot_nodes = 400, most_plot_mushrooms = 16;
                                  bool pieces, const Atlas& atlas,
                                  const Parallel& parallel = in_turn);
 
-/// Returns how far the leaves of broad-leaved trees have turned, 0..1 in sixteenths, and whether they have fallen.
+/// Returns how young the leaves of broad-leaved trees are, 0..1 in eighths, how far they have turned, 0..1 in sixteenths, and
+/// whether there are none.
 struct LeafState {
+    double spring = 0.0;
     double autumn = 0.0;
     bool bare = false;
     bool operator==(const LeafState&) const = default;

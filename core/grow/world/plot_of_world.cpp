@@ -69,11 +69,14 @@ PlotContent content_of(const World& world, const PlotPlace& place, WorldTime tim
     content.species = world.species_ids;
     content.soil_water = soil_water_at(world.params, time);
     content.lasting_water = world.autumn_water;
-    content.snow = snow_cover(snow_on(world.params.climate, world.params.seed,
-                                      static_cast<int>(time / ticks_of_year), day_of_year(time)));
+    const double snow = snow_on(world.params.climate, world.params.seed,
+                                static_cast<int>(time / ticks_of_year), day_of_year(time));
+    content.snow = snow_cover(snow);
+    content.snow_depth = snow_depth(snow);
     content.acidity = world.params.soil.acidity;
     content.micro = world.params.terrain.micro;
     content.wind_to = world.downwind();
+    content.is_southern = world.params.climate.latitude_deg < 0.0;
     return content;
 }
 

@@ -16,6 +16,7 @@
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/params/canonical.h"
+#include "core/plant/snow_cap.h"
 #include "core/plant/trunk_piece.h"
 #include "core/world/leaf_stamp.h"
 #include "core/world/tree_growth.h"
@@ -46,25 +47,31 @@ const LeafPreset& leaf_of_preset(const TreePreset& tree, const Atlas& atlas) {
     return *found;
 }
 
-TreeSpec tree_spec(const TreePreset& preset, std::uint64_t shape, int lod, const LeafState& state,
-                   bool evergreen) {
-    TreeSpec spec{preset.id.string(), params_of(preset)};
-    spec.params.seed = static_cast<std::uint32_t>(1 + shape);
-    spec.params.lod = lod;
-    spec.params.texture_size.value = tree_texture_side;
-    spec.params.foot_soil = false;
-    if (!evergreen) {
-        spec.params.autumn = state.autumn;
-        if (state.bare) spec.params.look.leaves.per_tip = 0;
-    }
-    return spec;
-}
-
 std::shared_ptr<const TreeMeshes> cached_meshes(const TreeSpec& spec, const Atlas& atlas,
                                                 const ExecutionContext& execution) {
     return execution.caches.trees("plot tree " + canonical_text(spec.params), [&] {
         return std::make_shared<const TreeMeshes>(tree_meshes(spec, atlas));
     });
+}
+
+/// The last level of detail that is seen from so near that the size of shoots is noticed.
+constexpr int finest_shoots = 1;
+
+/// Replaces shoots by more and shorter ones: trees of a wood are several times as tall as the preset, which is scaled.
+void make_shoots_finer(LeafStyle& leaves) {
+    constexpr double shorter = 0.62, least_deg = 45.0;
+    leaves.per_tip *= 2;
+    leaves.leaf_size *= shorter;
+    leaves.leaf_deg = std::max(leaves.leaf_deg, least_deg);
+}
+
+TreeSize size_of(const TreeMeshes& meshes) {
+    const Bounds box = bounds(meshes);
+    TreeSize size;
+    size.height = std::max(0.1, static_cast<double>(box.max.y));
+    size.radius =
+        std::max(0.02, 0.25 * static_cast<double>(box.max.x - box.min.x + box.max.z - box.min.z));
+    return size;
 }
 
 int sides_of(double radius) { return radius > 0.18 ? 16 : radius > 0.08 ? 12 : 8; }
@@ -95,8 +102,19 @@ PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& c
                                 .moss;
         params.moss = std::clamp(1.4 * damp + 1.2 * lost - 0.15, 0.0, 1.0);
     }
-    Mesh mesh = trunk_piece(params, [&](double s) { return line.section(line.from + s - below); });
-    return {wood.id, kind, lies, std::move(mesh)};
+    const auto section = [&](double s) { return line.section(line.from + s - below); };
+    PlotLog log{wood.id, kind, lies, trunk_piece(params, section), {}};
+    if (lies) {
+        SnowCapParams snow;
+        snow.length = params.length;
+        snow.depth = content.snow_depth;
+        snow.cover = content.snow;
+        snow.seed = params.seed;
+        snow.step = detail.snow_step;
+        snow.columns = detail.snow_columns;
+        log.snow = snow_cap(snow, section);
+    }
+    return log;
 }
 
 /// Returns the columns or rows of cells that a range of metres meets.
@@ -119,20 +137,40 @@ glm::dvec4 standing_on(const glm::dvec3& up, double angle) {
 
 }  // namespace
 
-PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind, std::uint64_t number,
-                            int lod, const Atlas& atlas, const ExecutionContext& execution) {
+TreeSpec tree_spec(const PlotContent& content, std::size_t kind, std::uint64_t number, int lod,
+                   const Atlas& atlas) {
     const TreePreset& preset = preset_of(content, kind, atlas);
     const LeafPreset& leaf = leaf_of_preset(preset, atlas);
-    const LeafState state = leaves_on(day_of_year(content.time));
+    TreeSpec spec{preset.id.string(), params_of(preset)};
+    spec.params.seed = static_cast<std::uint32_t>(1 + number);
+    spec.params.lod = lod;
+    spec.params.texture_size.value = tree_texture_side;
+    spec.params.foot_soil = false;
+    if (has_needles({leaf.shape, leaf.palette})) {
+        if (lod <= finest_shoots) make_shoots_finer(spec.params.look.leaves);
+        return spec;
+    }
+    const LeafState state = leaves_on(content.northern_day());
+    spec.params.spring = state.spring;
+    spec.params.autumn = state.autumn;
+    if (state.bare) spec.params.look.leaves.per_tip = 0;
+    return spec;
+}
+
+TreeSize tree_size(const TreeSpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
+    TreeSpec green = spec;
+    green.params.spring = green.params.autumn = 0.0;
+    return size_of(*cached_meshes(green, atlas, execution));
+}
+
+PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind, std::uint64_t number,
+                            int lod, const Atlas& atlas, const ExecutionContext& execution) {
     PlotTrees::Shape shape;
     shape.kind = kind;
-    shape.spec = tree_spec(preset, number, lod, state, has_needles({leaf.shape, leaf.palette}));
+    shape.spec = tree_spec(content, kind, number, lod, atlas);
     shape.name = product_name(shape.spec, atlas);
     shape.meshes = cached_meshes(shape.spec, atlas, execution);
-    const Bounds box = bounds(*shape.meshes);
-    shape.size.height = std::max(0.1, static_cast<double>(box.max.y));
-    shape.size.radius =
-        std::max(0.02, 0.25 * static_cast<double>(box.max.x - box.min.x + box.max.z - box.min.z));
+    shape.size = size_of(*shape.meshes);
     return shape;
 }
 
@@ -188,36 +226,6 @@ std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,
     return logs;
 }
 
-Mesh PlotLeaves::merged() const {
-    Mesh all;
-    const std::size_t vertices = places.size() * one.positions.size();
-    all.positions.reserve(vertices);
-    all.normals.reserve(vertices);
-    all.tangents.reserve(one.tangents.empty() ? 0 : vertices);
-    all.texture_coordinates.reserve(one.texture_coordinates.empty() ? 0 : vertices);
-    all.tints.reserve(vertices);
-    all.indices.reserve(places.size() * one.indices.size());
-    for (const GlbTransform& place : places) {
-        const auto first = static_cast<std::uint32_t>(all.positions.size());
-        for (std::size_t i = 0; i < one.positions.size(); ++i) {
-            all.positions.emplace_back(
-                place.translation +
-                rotated(place.rotation, place.scale * glm::dvec3(one.positions[i])));
-            all.normals.emplace_back(
-                glm::normalize(rotated(place.rotation, glm::dvec3(one.normals[i]))));
-            if (!one.tangents.empty())
-                all.tangents.emplace_back(
-                    glm::vec3(glm::normalize(rotated(place.rotation, glm::dvec3(one.tangents[i])))),
-                    one.tangents[i].w);
-            if (!one.texture_coordinates.empty())
-                all.texture_coordinates.push_back(one.texture_coordinates[i]);
-            all.tints.push_back(one.tints.empty() ? place.tint : place.tint * one.tints[i]);
-        }
-        for (const std::uint32_t index : one.indices) all.indices.push_back(first + index);
-    }
-    return all;
-}
-
 std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& frame,
                                   const CoverField& cover, double per_m2, const Atlas& atlas,
                                   double rim) {
@@ -237,7 +245,7 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
         if (falls[kind]) own.one = foliage_leaf(shape_of(own.leaf), triangles);
     }
     // Leaves fade from their fall in November on.
-    const double since = (day_of_year(content.time) + 365.0 - 305.0) / 365.0;
+    const double since = (content.northern_day() + 365.0 - 305.0) / 365.0;
     const double faded = since - std::floor(since);
     const WorldBox& box = frame.box();
     const auto [west, east] = cells_of(box.west, box.east, leaf_cell);

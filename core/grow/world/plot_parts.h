@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/grow/tree.h"
+#include "core/grow/world/mesh_copies.h"
 #include "core/grow/world/plot.h"
 #include "core/grow/world/plot_places.h"
 #include "core/plant/wood_image.h"
@@ -37,6 +38,15 @@ inline constexpr std::uint64_t tree_shapes_of_kind = 4;
     return (tree.id >> 32U) % tree_shapes_of_kind;
 }
 
+/// Returns which individual of a kind of trees it is, with the leaves of the day of a plot.
+[[nodiscard]] TreeSpec tree_spec(const PlotContent& content, std::size_t kind, std::uint64_t number,
+                                 int lod, const Atlas& atlas);
+
+/// Returns the size of an individual, which does not depend on the colour of its leaves, so that it is known through the
+/// seasons.
+[[nodiscard]] TreeSize tree_size(const TreeSpec& spec, const Atlas& atlas,
+                                 const ExecutionContext& execution);
+
 /// Returns an individual of a kind of trees, with the leaves of the day of a plot.
 [[nodiscard]] PlotTrees::Shape tree_shape(const PlotContent& content, std::size_t kind,
                                           std::uint64_t number, int lod, const Atlas& atlas,
@@ -55,14 +65,18 @@ struct PlotLog {
     Substrate wood = Substrate::beech;
     bool lies = true;
     Mesh mesh;
+    Mesh snow;  ///< on a log, with tints; empty without
 };
 
 /// Returns the wood of a kind of tree.
 [[nodiscard]] Substrate wood_of(const TreePreset& tree);
 
-/// How finely trunks are divided: sides of the thickest ones, and rings.
+/// How finely trunks are divided: sides of the thickest ones, and rings; and the snow on them: metres along a trunk, and
+/// columns across.
 struct TrunkDetail {
     int sides = 16, rings = 160;
+    double snow_step = 0.12;
+    int snow_columns = 6;
 };
 
 /// Returns the dead trunks on a plot: logs are cut where they leave it.
@@ -71,14 +85,9 @@ struct TrunkDetail {
                                            const TrunkDetail& detail = {});
 
 /// Leaves of one kind that lie on the floor.
-struct PlotLeaves {
+struct PlotLeaves : MeshCopies {
     LeafParams leaf;
     std::string preset;  ///< id of that of the leaf
-    Mesh one;            ///< of which all are copies
-    std::vector<GlbTransform> places;
-
-    /// Returns all of them as one mesh.
-    [[nodiscard]] Mesh merged() const;
 };
 
 /// Distance from the border of a slab within which no leaf lies, so that none reaches beyond it, metres.

@@ -181,7 +181,7 @@ GlbTransform place_of(const StandTree& tree, WorldTime time, const TreeSize& mod
     Random random(static_cast<std::uint32_t>(tree.id), purposes::plot_pieces);
     const double angle = 2.0 * pi * random.uniform();
     // The foot of the mesh reaches into the ground that is raised round it.
-    const double sunk = 0.12 * trunk_diameter(height);
+    const double sunk = 0.2 * trunk_diameter(height);
     return {frame.at(x, y, frame.floor().at(x, y) - sunk), turned(angle),
             glm::dvec3(breadth, scale, breadth)};
 }

@@ -64,10 +64,10 @@ constexpr double trees_within = 135.0;
 constexpr int wood_texture_side = 1024;
 
 /// From so many trees on their levels of detail are those of a wood.
-constexpr double many_trees = 300.0;
+constexpr double many_trees = 2000.0;
 
 /// Triangles of all trees, and of all fruit bodies: of the rest of a scene there are never as many.
-constexpr std::uint64_t most_of_trees = 2'000'000, most_of_bodies = 400'000;
+constexpr std::uint64_t most_of_trees = 2'500'000, most_of_bodies = 400'000;
 
 /// Tufts of grass on a square of half a metre: before the camera, round the plot, and farther away, where they are shown
 /// within a distance, metres.
@@ -113,8 +113,8 @@ TreeLevels levels_at(double distance, double height, bool low, bool seen, double
     // A sapling is as many pixels high as a tree twice as far away.
     const double apparent = near * distance * std::max(1.0, 6.0 / std::max(height, 1.0));
     if (!seen && distance > 8.0) return {first_far_lod, first_far_lod};
-    if (apparent < 6.0) return {1, low ? 0 : 2};
-    if (apparent < 13.0) return {1, low ? 1 : 2};
+    if (apparent < 5.0) return {0, low ? 0 : 1};
+    if (apparent < 16.0) return {1, 1};
     if (apparent < 45.0) return {2, 2};
     if (apparent < 75.0) return {3, 3};
     const int far = apparent < 100.0 ? 0 : 1;
@@ -156,6 +156,9 @@ class Scenery {
         return scene_;
     }
 
+    /// Returns what casts the shadows of trees beyond.
+    [[nodiscard]] const std::map<const Mesh*, const Mesh*>& casters() const { return casters_; }
+
     /// Returns the part of the scene whose shadows are seen from near.
     [[nodiscard]] Bounds near_box() const {
         const WorldBox box = is_close_ ? grown(nearest_, 0.8) : grown(near_, 2.0);
@@ -178,6 +181,7 @@ class Scenery {
     WorldMaterials materials_;
     std::deque<Mesh> meshes_;
     std::map<std::tuple<std::size_t, std::uint64_t, int>, PlotTrees::Shape> shapes_;
+    std::map<const Mesh*, const Mesh*> casters_;
     PlotBodies shown_;
     Block around_;
     std::vector<FruitBody> bodies_;
@@ -333,7 +337,7 @@ class Scenery {
             // Of the farthest saplings nothing is seen.
             if (distance > trees_within || height < 0.01 * distance) continue;
             const bool is_before =
-                glm::dot(way, gaze()) > 0.7 * distance - 1.5 * crown_radius(height);
+                glm::dot(way, gaze()) > 0.77 * distance - 1.5 * crown_radius(height);
             seen.push_back({&tree, distance, height, has_low_leaves(tree, height), is_before});
         }
         return seen;
@@ -407,15 +411,12 @@ class Scenery {
         const auto& [kind, number, levels] = key;
         const PlotTrees::Shape& bark = shape_at(content, kind, number, levels.bark);
         const PlotTrees::Shape& leaves = shape_at(content, kind, number, levels.leaves);
-        std::vector<GlbPrimitive> primitives{{&bark.meshes->bark, materials_.bark(bark.spec), {}}};
-        if (!leaves.meshes->leaves.positions.empty()) {
-            const TreeParams& params = leaves.spec.params;
-            const std::string leaf = params.look.leaf.id.string();
-            primitives.push_back({&leaves.meshes->leaves,
-                                  materials_.leaves(leaf, leaf, paint_of(leaf_of(params, atlas_))),
-                                  {}});
-        }
-        scene_.meshes.push_back({bark.name, std::move(primitives)});
+        scene_.meshes.push_back(
+            {bark.name, materials_.tree(bark.spec, bark.meshes->bark, leaves.meshes->leaves)});
+        const TreeMeshes& far = *shape_at(content, kind, number, first_far_lod).meshes;
+        if (levels.bark < first_far_lod) casters_[&bark.meshes->bark] = &far.bark;
+        if (levels.leaves < first_far_lod && far.leaves.triangles() > 0)
+            casters_[&leaves.meshes->leaves] = &far.leaves;
         return scene_.meshes.size() - 1;
     }
 
@@ -430,14 +431,9 @@ class Scenery {
                 add_single(parent, own.merged(), "litter",
                            materials_.leaves("fallen", own.preset, paint_of(own.leaf)),
                            GlbRole::foliage);
-        for (const FlowerKind& kind : flower_kinds()) {
-            PlotLeaves own;
-            own.places = flowers_on(kind, content, frame, cover);
-            if (own.places.empty()) continue;
-            own.one = flower_mesh(kind);
-            add_single(parent, own.merged(), std::string(kind.name), materials_.plain("flowers"),
+        for (const PlotFlowers& own : flowers_on(content, frame, cover))
+            add_single(parent, own.merged(), own.name, materials_.plain("flowers"),
                        GlbRole::foliage);
-        }
         add_tufts(nearest_, near_tufts, nearest_tufts, {});
         add_tufts(near_, 0, near_tufts, {});
         add_tufts(middle_, 0, middle_tufts, near_);
@@ -458,8 +454,8 @@ class Scenery {
         const std::size_t blades = materials_.plain("grass");
         for (std::size_t shape = 0; shape < all.size(); ++shape) {
             std::size_t number = 0;
-            PlotLeaves tufts;
-            tufts.one = tuft_mesh(shape, grass_on(day_of_year(plot_.time)));
+            MeshCopies tufts;
+            tufts.one = tuft_mesh(shape, grass_on(plot_.northern_day()));
             for (const GlbTransform& place : all[shape]) {
                 const glm::dvec2 at(frame.origin().x + place.translation.x,
                                     -frame.origin().z - place.translation.z);
@@ -505,14 +501,18 @@ class Scenery {
         const PlotFrame frame(content, *floor_);
         const std::size_t parent = node_of(frame);
         const CoverField& cover = cover_on(middle_, content);
+        Mesh snow;
         for (const auto& [list, detail] :
-             {std::pair{&near, TrunkDetail{}}, {&far, TrunkDetail{10, 40}}}) {
+             {std::pair{&near, TrunkDetail{}}, {&far, TrunkDetail{10, 40, 0.25, 5}}}) {
             content.dead_wood = *list;
-            for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail))
+            for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
                 add_single(parent, std::move(log.mesh), log.lies ? "log" : "snag",
                            materials_.wood({log.wood, wood_side({wood_texture_side}, 0)}),
                            GlbRole::body);
+                append(snow, log.snow);
+            }
         }
+        add_single(parent, std::move(snow), "snow", materials_.plain("snow"), GlbRole::body);
     }
 
     void add_bodies() {
@@ -562,9 +562,10 @@ RgbaImage scenery_of(const WorldPlot& plot, const PlotOptions& options,
     const GlbScene& scene = scenery.build();
     throw_if_cancelled(execution);
     execution.observer(Step::draw);
-    return rendered_from(camera, scene, params,
-                         {daylight_on(*plot.world, plot.content.time), scenery.near_box(), true},
-                         execution.parallel);
+    return rendered_from(
+        camera, scene, params,
+        {daylight_on(*plot.world, plot.content.time), scenery.near_box(), true, scenery.casters()},
+        execution.parallel);
 }
 
 }  // namespace sporeprint

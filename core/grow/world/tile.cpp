@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/grow/leaf.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
 #include "core/grow/tree.h"
@@ -332,29 +331,18 @@ class TileScene {
             PlotTrees::Shape shape =
                 tree_shape(content_, key.first, key.second, lod, atlas_, execution_);
             shape.spec.params.textures = textures();
+            trees_.push_back(shape.meshes);
             std::vector<GlbTransform> places;
             std::vector<std::uint64_t> ids;
             for (const StandTree* tree : group) {
                 places.push_back(place_of(*tree, request_.time, shape.size, frame));
                 ids.push_back(tree->id);
             }
-            add_places(level_name(shape.name, lod), primitives_of(shape),
+            add_places(level_name(shape.name, lod),
+                       materials_.tree(shape.spec, shape.meshes->bark, shape.meshes->leaves),
                        is_linked() ? links_.tree(shape.spec) : std::string(), places, ids,
                        GlbRole::body);
         }
-    }
-
-    std::vector<GlbPrimitive> primitives_of(const PlotTrees::Shape& shape) {
-        trees_.push_back(shape.meshes);
-        const TreeMeshes& meshes = *trees_.back();
-        const TreeParams& params = shape.spec.params;
-        const std::size_t bark = materials_.bark(shape.spec);
-        std::vector<GlbPrimitive> primitives{{&meshes.bark, bark, {}}};
-        if (meshes.leaves.positions.empty()) return primitives;
-        const std::string leaf = params.look.leaf.id.string();
-        const std::size_t leaves = materials_.leaves(leaf, leaf, paint_of(leaf_of(params, atlas_)));
-        primitives.push_back({&meshes.leaves, leaves, {}});
-        return primitives;
     }
 
     void add_floor(const PlotFrame& frame, const FloorHeights& floor) {
@@ -380,12 +368,18 @@ class TileScene {
         PlotContent content = wide_;
         content.dead_wood = own;
         const PlotFrame frame(content, floor, origin_step);
-        const TrunkDetail detail = are_thick ? TrunkDetail{10, 28} : TrunkDetail{6, 12};
+        const TrunkDetail detail =
+            are_thick ? TrunkDetail{10, 28, 0.6, 5} : TrunkDetail{6, 12, 0.8, 3};
+        Mesh snow;
         for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
             const std::size_t wood = materials_.wood({log.wood, wood_side({wood_texture_side}, 0)});
             add_single(std::move(log.mesh), log.lies ? "log" : "snag", wood, GlbRole::body, log.id);
             set_step(trunk_step);
+            append(snow, log.snow);
         }
+        if (snow.positions.empty()) return;
+        add_single(std::move(snow), "snow", materials_.plain("snow"), GlbRole::body);
+        set_step(trunk_step);
     }
 
     void add_grass(const PlotFrame& frame, const CoverField& cover) {
@@ -393,8 +387,8 @@ class TileScene {
         for (std::size_t shape = 0; shape < places.size(); ++shape) {
             if (places[shape].empty()) continue;
             const std::size_t blades = materials_.plain("grass");
-            meshes_.push_back(tuft_mesh(shape, grass_on(day_of_year(content_.time))));
-            add_repeated("grass_" + std::to_string(shape + 1), {}, meshes_.back(), blades,
+            meshes_.push_back(tuft_mesh(shape, grass_on(content_.northern_day())));
+            add_repeated("grass_" + std::to_string(shape + 1), meshes_.back(), blades,
                          places[shape]);
         }
     }
@@ -403,25 +397,23 @@ class TileScene {
         for (PlotLeaves& own : leaves_of(content_, frame, cover, leaves_per_m2, atlas_, 0.0)) {
             const std::size_t leaves = materials_.leaves("fallen", own.preset, paint_of(own.leaf));
             meshes_.push_back(std::move(own.one));
-            add_repeated("litter_" + own.preset, own.leaf, meshes_.back(), leaves, own.places);
+            add_repeated("litter_" + own.preset, meshes_.back(), leaves, own.places);
         }
-        for (const FlowerKind& kind : flower_kinds()) {
-            const std::vector<GlbTransform> places = flowers_on(kind, content_, frame, cover);
-            if (places.empty()) continue;
+        for (PlotFlowers& own : flowers_on(content_, frame, cover)) {
             const std::size_t flowers = materials_.plain("flowers");
-            meshes_.push_back(flower_mesh(kind));
-            add_repeated(std::string(kind.name), {}, meshes_.back(), flowers, places);
+            meshes_.push_back(std::move(own.one));
+            add_repeated(own.name, meshes_.back(), flowers, own.places);
         }
     }
 
     /// Adds a small mesh that occurs often: as instances, or as one mesh of all.
-    void add_repeated(const std::string& name, const LeafParams& leaf, const Mesh& one,
-                      std::size_t material, const std::vector<GlbTransform>& places) {
+    void add_repeated(const std::string& name, const Mesh& one, std::size_t material,
+                      const std::vector<GlbTransform>& places) {
         if (is_linked()) {
             add_places(name, {{&one, material, {}}}, {}, places, {}, GlbRole::foliage);
             return;
         }
-        add_single(PlotLeaves{leaf, {}, one, places}.merged(), name, material, GlbRole::foliage);
+        add_single(MeshCopies{one, places}.merged(), name, material, GlbRole::foliage);
     }
 
     void add_fungi(const PlotFrame& frame, const FloorHeights& floor) {

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/grow/world/plot_parts.h"
+#include "core/grow/world/mesh_copies.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
@@ -113,8 +113,7 @@ Mesh grass_of(const PlotContent& content, const PlotFrame& frame, const CoverFie
     for (std::size_t shape = 0; shape < places.size(); ++shape)
         if (!places[shape].empty())
             append(all,
-                   PlotLeaves{
-                       {}, {}, tuft_mesh(shape, grass_on(day_of_year(content.time))), places[shape]}
+                   MeshCopies{tuft_mesh(shape, grass_on(content.northern_day())), places[shape]}
                        .merged());
     return all;
 }

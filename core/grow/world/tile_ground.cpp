@@ -70,8 +70,10 @@ glm::dvec4 look_of_crowns(const TreePreset& tree, const LeafPreset& leaf, int da
     middle.affinity = middle.homothety = 0.5;
     middle.from_main = 0.3;
     const auto params = params_of(tree);
+    LeafPalette palette = leaf.palette;
+    palette.summer = unfolding(palette.summer, state.spring);
     const glm::dvec3 light =
-        LeafColourMap(leaf.palette).at(middle, evergreen ? params.autumn : state.autumn).upper;
+        LeafColourMap(palette).at(middle, evergreen ? params.autumn : state.autumn).upper;
     // Gaps between leaves are dark.
     constexpr double of_light = 0.55;
     return {linear_to_srgb(of_light * light.x), linear_to_srgb(of_light * light.y),
@@ -86,7 +88,7 @@ glm::dvec4 look_of_stand(const World& world, const PlotContent& content, const A
         if (tree == nullptr) continue;
         const LeafPreset* const leaf = atlas.find_leaf(params_of(*tree).look.leaf.id.string());
         if (leaf == nullptr) continue;
-        sum += kind.share * look_of_crowns(*tree, *leaf, day_of_year(content.time));
+        sum += kind.share * look_of_crowns(*tree, *leaf, content.northern_day());
     }
     return sum;
 }

@@ -62,6 +62,16 @@ std::size_t WorldMaterials::leaves(const std::string& name, const std::string& l
     });
 }
 
+std::vector<GlbPrimitive> WorldMaterials::tree(const TreeSpec& spec, const Mesh& bark_mesh,
+                                               const Mesh& leaf_mesh) {
+    std::vector<GlbPrimitive> primitives{{&bark_mesh, bark(spec), {}}};
+    if (leaf_mesh.positions.empty()) return primitives;
+    const std::string leaf = spec.params.look.leaf.id.string();
+    primitives.push_back(
+        {&leaf_mesh, leaves(leaf, leaf, paint_of(leaf_of(spec.params, atlas_))), {}});
+    return primitives;
+}
+
 std::size_t WorldMaterials::wood(const WoodPaint& paint) {
     return named(wood_name(paint, textures_), [&](GlbMaterial& material) {
         material.repeats_u = true;

@@ -6,11 +6,13 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/atlas/atlas.h"
 #include "core/grow/execution_context.h"
 #include "core/grow/product.h"
 #include "core/individual/individual.h"
+#include "core/mesh/mesh.h"
 #include "core/plant/leaf_spec.h"
 #include "core/plant/tree_spec.h"
 #include "core/plant/wood_image.h"
@@ -53,6 +55,11 @@ class WorldMaterials {
     /// name  before the hash of the images
     /// leaf  id of its preset
     std::size_t leaves(const std::string& name, const std::string& leaf, const LeafPaint& paint);
+    /// The bark of a tree, and its leaves if it has some, as primitives with their materials.
+    ///
+    /// bark_mesh, leaf_mesh  of the same individual, maybe at different levels of detail
+    std::vector<GlbPrimitive> tree(const TreeSpec& spec, const Mesh& bark_mesh,
+                                   const Mesh& leaf_mesh);
     std::size_t wood(const WoodPaint& paint);
     std::size_t skin(const MushroomSpec& spec, const Individual& individual);
 

@@ -22,14 +22,14 @@ CoverField covered(const WorldBox& box, double grass, double leaves) {
     });
 }
 
-std::vector<GlbTransform> places_of(const FlowerKind& kind, int day, double grass, double leaves,
+std::vector<GlbTransform> places_on(const FlowerKind& kind, int day, double grass, double leaves,
                                     double size = 12.0) {
     const SmallWood& wood = small_wood();
     PlotContent content = wood.content(0.0, 0.0, size);
     content.time = time_of(SmallWood::year, day);
     const FloorHeights floor(wood.ground, content.seed, content.micro, {});
-    return flowers_on(kind, content, PlotFrame(content, floor),
-                      covered(box_of(content), grass, leaves));
+    return places_of(kind, content, PlotFrame(content, floor),
+                     covered(box_of(content), grass, leaves));
 }
 
 int middle_of(const FlowerKind& kind) { return (kind.first + kind.last) / 2; }
@@ -50,26 +50,26 @@ TEST(Flowers, BloomInTheirTimeAlone) {
         EXPECT_EQ(open_on(kind, kind.first), 0.0) << kind.name;
         EXPECT_EQ(open_on(kind, kind.last), 0.0) << kind.name;
         EXPECT_EQ(open_on(kind, middle_of(kind)), 1.0) << kind.name;
-        EXPECT_TRUE(places_of(kind, 340, 1.0, 0.0).empty()) << kind.name;
-        EXPECT_TRUE(places_of(kind, 340, 0.0, 1.0).empty()) << kind.name;
+        EXPECT_TRUE(places_on(kind, 340, 1.0, 0.0).empty()) << kind.name;
+        EXPECT_TRUE(places_on(kind, 340, 0.0, 1.0).empty()) << kind.name;
     }
 }
 
 TEST(Flowers, OfWoodsStandBetweenLeavesAndOfMeadowsInGrass) {
     for (const FlowerKind& kind : flower_kinds()) {
         const int day = middle_of(kind);
-        const std::size_t in_grass = places_of(kind, day, 1.0, 0.0).size(),
-                          in_leaves = places_of(kind, day, 0.0, 1.0).size();
+        const std::size_t in_grass = places_on(kind, day, 1.0, 0.0).size(),
+                          in_leaves = places_on(kind, day, 0.0, 1.0).size();
         EXPECT_EQ(in_grass > 0, !kind.in_woods) << kind.name;
         EXPECT_EQ(in_leaves > 0, kind.in_woods) << kind.name;
-        EXPECT_TRUE(places_of(kind, day, 0.0, 0.0).empty()) << kind.name;
+        EXPECT_TRUE(places_on(kind, day, 0.0, 0.0).empty()) << kind.name;
     }
 }
 
 TEST(Flowers, OfAPartOfAPlotAreThoseOfThePlot) {
     const FlowerKind& kind = flower_kinds().front();
-    const std::vector<GlbTransform> all = places_of(kind, middle_of(kind), 0.0, 1.0),
-                                    part = places_of(kind, middle_of(kind), 0.0, 1.0, 4.0);
+    const std::vector<GlbTransform> all = places_on(kind, middle_of(kind), 0.0, 1.0),
+                                    part = places_on(kind, middle_of(kind), 0.0, 1.0, 4.0);
     std::size_t within = 0;
     for (const GlbTransform& place : all)
         if (std::max(std::abs(place.translation.x), std::abs(place.translation.z)) < 1.999)

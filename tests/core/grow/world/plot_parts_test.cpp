@@ -77,6 +77,21 @@ TEST(PlotTrees, HaveAtMostFourShapesOfAKindAndFewerTrianglesOnDemand) {
     EXPECT_LT(count(all / 2), all);
 }
 
+TEST(PlotTrees, HaveOneSizeInAllColours) {
+    PlotContent content = small_wood().content();
+    for (std::size_t kind = 0; kind < content.kinds.size(); ++kind) {
+        content.time = time_of(SmallWood::year, 200);
+        const TreeSize green = tree_size(tree_spec(content, kind, 1, 2, atlas()), atlas(), {});
+        for (const int day : {120, 200, 290}) {
+            content.time = time_of(SmallWood::year, day);
+            const PlotTrees::Shape shape = tree_shape(content, kind, 1, 2, atlas(), {});
+            EXPECT_EQ(shape.size.height, green.height) << day;
+            EXPECT_EQ(shape.size.radius, green.radius) << day;
+            EXPECT_EQ(tree_size(shape.spec, atlas(), {}).height, green.height) << day;
+        }
+    }
+}
+
 TEST(PlotLogs, LieOnTheGround) {
     const Parts parts(small_wood().content());
     const std::vector<PlotLog> logs = logs_of(parts.content, parts.frame, parts.cover, atlas());
@@ -108,6 +123,22 @@ TEST(PlotLogs, LieOnTheGroundAllAlong) {
     }
     ASSERT_GT(lowest.size(), 15U);
     for (const auto& [stretch, height] : lowest) EXPECT_LE(height, 0.06) << stretch;
+}
+
+TEST(PlotLogs, ThatLieCarrySnow) {
+    PlotContent content = small_wood().content();
+    const Parts summer(content);
+    for (const PlotLog& log : logs_of(summer.content, summer.frame, summer.cover, atlas()))
+        EXPECT_TRUE(log.snow.positions.empty());
+    content.snow = 1.0;
+    content.snow_depth = 0.08;
+    const Parts winter(content);
+    for (const PlotLog& log : logs_of(winter.content, winter.frame, winter.cover, atlas())) {
+        EXPECT_EQ(log.snow.positions.empty(), !log.lies);
+        if (!log.lies) continue;
+        expect_valid(log.snow);
+        EXPECT_GT(bounds(log.snow).max.y, bounds(log.mesh).max.y);
+    }
 }
 
 TEST(PlotLogs, AreGoneBeforeAndAfterTheirTime) {

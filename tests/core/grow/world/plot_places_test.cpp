@@ -48,7 +48,7 @@ TEST(PlotPlaces, OfATreeScaleItsModelToItsSize) {
     EXPECT_LE(place.scale.x, 1.2 * place.scale.y);
     EXPECT_NEAR(glm::length(place.rotation), 1.0, 1e-12);
     const glm::dvec3 foot = on.frame.on_floor(metres(tree.at.x), metres(tree.at.y));
-    EXPECT_NEAR(foot.y - place.translation.y, 0.12 * trunk_diameter(height), 1e-12);
+    EXPECT_NEAR(foot.y - place.translation.y, 0.2 * trunk_diameter(height), 1e-12);
 }
 
 TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {

@@ -169,14 +169,37 @@ TEST(DayOfYear, GoesFromOneTo365) {
     EXPECT_EQ(day_of_year(time_of(-3, 200)), 200);
 }
 
+TEST(PlotContent, OfTheSouthHasTheSeasonsOfHalfAYearLater) {
+    PlotContent content;
+    content.time = time_of(80, 10);
+    EXPECT_EQ(content.northern_day(), 10);
+    content.is_southern = true;
+    EXPECT_EQ(content.northern_day(), 192);
+    content.time = time_of(80, 200);
+    EXPECT_EQ(content.northern_day(), 17);
+    EXPECT_TRUE(leaves_on(content.northern_day()).bare);
+}
+
 TEST(LeavesOn, TurnInAutumnAndAreGoneInWinter) {
-    EXPECT_EQ(leaves_on(200), (LeafState{0.0, false}));
+    EXPECT_EQ(leaves_on(200), (LeafState{0.0, 0.0, false}));
     EXPECT_GT(leaves_on(310).autumn, 0.5);
     EXPECT_TRUE(leaves_on(350).bare);
     EXPECT_TRUE(leaves_on(40).bare);
     std::set<double> states;
     for (int day = 1; day <= 365; ++day) states.insert(leaves_on(day).autumn);
     EXPECT_LE(states.size(), 17U) << "so that trees of a plot are cached";
+}
+
+TEST(LeavesOn, AreYoungInMayAndGreenerFromDayToDay) {
+    EXPECT_GT(leaves_on(118).spring, 0.8);
+    EXPECT_EQ(leaves_on(170).spring, 0.0);
+    EXPECT_EQ(leaves_on(100).spring, 0.0) << "there are none yet";
+    std::set<double> states;
+    for (int day = 113; day <= 365; ++day) {
+        EXPECT_LE(leaves_on(day).spring, leaves_on(day - 1).bare ? 1.0 : leaves_on(day - 1).spring);
+        states.insert(leaves_on(day).spring);
+    }
+    EXPECT_LE(states.size(), 9U) << "so that trees of a plot are cached";
 }
 
 }  // namespace
