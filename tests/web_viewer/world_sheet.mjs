@@ -31,7 +31,7 @@ const sheets = {
             plot("mixed,seed=7", "y90d276", "x=-2.8&y=45.3&size=4&view=kneeling"),
             plot("meadow,seed=7", "y88d280", "x=29.9&y=8.2&size=4&view=kneeling"),
             plot("clearing,seed=7", "y88d285", "x=3.3&y=63.9&size=4&view=kneeling"),
-            plot("mixed,seed=7", "y90d28", "x=-2.8&y=45.3"),
+            plot("mixed,seed=7", "y80d28", "x=-2.8&y=45.3"),
         ].map((address) => [address]),
     },
     seasons: {
@@ -54,7 +54,7 @@ const sheets = {
         cell: [640, 400],
         cells: [
             [flight("beech,seed=7,extent=256", 20, -5, "year=80&day=285", "20,-8,3")],
-            [flight("beech,seed=7,extent=256", 0, -60, "year=80&day=285", "10,-18,30")],
+            [flight("birch,seed=2,extent=256", 60, -54, "year=128&day=200", "40,-14,14")],
         ],
     },
     world_page: {
