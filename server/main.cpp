@@ -198,6 +198,9 @@ api::ServiceOptions service_options_of(const Options& options, RepeatedWarning& 
     result.store_event = [&](const api::StoreEvent& event) {
         Value::Object about = {{"file", Value(event.file.string())}, {"why", Value(event.why)}};
         if (event.kind == api::StoreEvent::Kind::unwritten) return unwritten(std::move(about));
+        if (event.kind == api::StoreEvent::Kind::bound)
+            return log.event(LogLevel::warning, "the bound of the store's folder is another one",
+                             about);
         about.emplace_back("files", Value(static_cast<double>(event.files)));
         log.event(LogLevel::warning,
                   "files in the store's folder that are not its own are left alone and not counted",

@@ -1,14 +1,18 @@
 #include "api/cache/directory_store.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <memory>
+#include <random>
+#include <set>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -27,6 +31,8 @@ constexpr std::string_view format = "sporeprint 1\n";
 constexpr std::size_t digest_length = 32;
 constexpr const char* extension = ".body";
 constexpr const char* aside = "aside";
+/// Holds the bound of the folder, bytes in decimal.
+constexpr const char* bound_file = "bound";
 
 /// Returns what a file contains before the hash of the body and the body: format and key.
 std::string preamble(std::string_view key) { return std::string(format).append(key) += '\n'; }
@@ -109,40 +115,134 @@ bool has_holes(const struct stat& status) {
     return size >= smallest && static_cast<std::uint64_t>(status.st_blocks) * block < size / 8;
 }
 
-}  // namespace
+/// Returns a name that no other process has: ids of processes are equal in containers.
+std::string random_token() {
+    std::random_device device;
+    std::string token;
+    for (int i = 0; i < 4; ++i) {
+        std::array<char, 8> digits{};
+        const auto bits = static_cast<std::uint32_t>(device());
+        for (std::size_t k = 0; k < digits.size(); ++k)
+            digits[k] = "0123456789abcdef"[bits >> (4 * k) & 15U];
+        token.append(digits.data(), digits.size());
+    }
+    return token;
+}
 
-DirectoryStore::DirectoryStore(fs::path folder, std::uint64_t most_bytes, Report report)
-    : folder_(std::move(folder)), most_bytes_(most_bytes), report_(std::move(report)) {
+bool is_file(const fs::path& path) {
+    std::error_code unknown;
+    return fs::is_regular_file(path, unknown);
+}
+
+void remove_file(const fs::path& path) {
+    std::error_code gone_already;
+    fs::remove(path, gone_already);
+}
+
+/// Creates a folder for a store if it is missing.
+///
+/// returns  the folder
+/// throws   InvalidInput if it cannot be created or written
+fs::path writable(fs::path folder) {
     std::error_code error;
-    fs::create_directories(folder_ / aside, error);
-    const fs::path probe = folder_ / aside / ("probe." + std::to_string(getpid()));
+    fs::create_directories(folder / aside, error);
+    const fs::path probe = folder / aside / (random_token() + ".probe");
     if (!error) error = write(probe, format, {});
     if (error)
-        throw InvalidInput(folder_.string(), "the folder cannot be written: " + error.message());
-    fs::remove(probe, error);
-    take_stock();
+        throw InvalidInput(folder.string(), "the folder cannot be written: " + error.message());
+    remove_file(probe);
+    return folder;
+}
+
+/// Writes the bound of a folder; one that cannot be written is that of each process alone.
+void write_bound(const fs::path& path, std::uint64_t bytes) {
+    const fs::path temporary = path.parent_path() / aside / (random_token() + ".bound");
+    std::error_code error = write(temporary, std::to_string(bytes) + '\n', {});
+    if (!error) fs::rename(temporary, path, error);
+    if (error) remove_file(temporary);
+}
+
+std::optional<std::uint64_t> read_bound(const fs::path& path) {
+    std::ifstream stream(path);
+    std::uint64_t bytes = 0;
+    return stream >> bytes ? std::optional(bytes) : std::nullopt;
+}
+
+}  // namespace
+
+DirectoryStore::FolderLock::FolderLock(const fs::path& folder)
+    : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {}
+
+DirectoryStore::FolderLock::~FolderLock() {
+    if (file_ >= 0) ::close(file_);
+}
+
+bool DirectoryStore::FolderLock::try_exclusive() {
+    while (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+        if (errno != EINTR) return errno != EWOULDBLOCK;
+    return true;
+}
+
+void DirectoryStore::FolderLock::share() {
+    while (::flock(file_, LOCK_SH) != 0 && errno == EINTR) {
+    }
+}
+
+void DirectoryStore::FolderLock::hold() {
+    while (::flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+}
+
+void DirectoryStore::FolderLock::release() { ::flock(file_, LOCK_UN); }
+
+DirectoryStore::DirectoryStore(fs::path folder, std::uint64_t most_bytes, Report report)
+    : folder_(writable(std::move(folder))),
+      most_bytes_(most_bytes),
+      report_(std::move(report)),
+      token_(random_token()),
+      use_(folder_ / aside),
+      eviction_(folder_) {
+    join();
+    take_stock(true);
 }
 
 fs::path DirectoryStore::path_of(const std::string& name) const {
     return folder_ / name.substr(0, 2) / (name + extension);
 }
 
-/// Registers the files of earlier processes, the most recently used last.
-void DirectoryStore::take_stock() {
-    struct Found {
-        fs::file_time_type used;
-        std::string name;
-        std::uint64_t bytes;
-    };
-    std::vector<Found> found;
-    StoreEvent foreign{StoreEvent::Kind::foreign, {}, 0, "not written by the store"};
-    std::uint64_t evictions = 0;
+void DirectoryStore::join() {
+    const bool is_alone = use_.try_exclusive();
+    if (is_alone) {
+        write_bound(folder_ / bound_file, most_bytes_);
+    } else {
+        use_.share();
+        const std::optional<std::uint64_t> of_folder = read_bound(folder_ / bound_file);
+        if (of_folder && *of_folder != most_bytes_) {
+            if (report_)
+                report_({StoreEvent::Kind::bound, folder_, 0,
+                         "other processes use the folder with a bound of " +
+                             std::to_string(*of_folder) + " bytes, which holds in place of " +
+                             std::to_string(most_bytes_)});
+            most_bytes_ = *of_folder;
+        }
+    }
+    // What others write now is new.
+    constexpr auto abandoned = std::chrono::hours(1);
+    const auto now = fs::file_time_type::clock::now();
     std::error_code error;
     for (fs::directory_iterator i(folder_ / aside, error), end; !error && i != end;
          i.increment(error)) {
         std::error_code ignored;
-        fs::remove(i->path(), ignored);
+        const auto written = fs::last_write_time(i->path(), ignored);
+        if (is_alone || (!ignored && now - written > abandoned)) fs::remove(i->path(), ignored);
     }
+    if (is_alone) use_.share();
+}
+
+DirectoryStore::Stock DirectoryStore::stock() const {
+    Stock found;
+    found.foreign = {StoreEvent::Kind::foreign, {}, 0, "not written by the store"};
+    std::error_code error;
     for (fs::recursive_directory_iterator i(folder_, error), end; !error && i != end;
          i.increment(error)) {
         const fs::path& path = i->path();
@@ -151,9 +251,11 @@ void DirectoryStore::take_stock() {
         if (::lstat(path.c_str(), &status) != 0) continue;
         if (S_ISDIR(status.st_mode)) {
             std::error_code unknown;
-            if (fs::is_directory(path / aside, unknown)) i.disable_recursion_pending();
+            if (path == folder_ / aside || fs::is_directory(path / aside, unknown))
+                i.disable_recursion_pending();
             continue;
         }
+        if (path == folder_ / bound_file) continue;
         const bool named = S_ISREG(status.st_mode) && path.extension() == extension &&
                            is_name(name) && path_of(name) == path;
         const auto bytes = static_cast<std::uint64_t>(status.st_size);
@@ -161,52 +263,81 @@ void DirectoryStore::take_stock() {
         // of a new file late: its first line decides.
         const bool plausible = bytes <= most_of_one() && !has_holes(status);
         if (!named || (!plausible && !begins_as_ours(path))) {
-            if (foreign.files++ == 0) foreign.file = path;
-        } else if (bytes > most_bytes_) {
-            std::error_code gone_already;
-            fs::remove(path, gone_already);
-            ++evictions;
-        } else {
-            std::error_code unknown;
-            const auto used = i->last_write_time(unknown);
-            if (!unknown) found.push_back({used, name, bytes});
+            if (found.foreign.files++ == 0) found.foreign.file = path;
+            continue;
         }
+        std::error_code unknown;
+        const auto used = i->last_write_time(unknown);
+        if (!unknown)
+            (bytes > most_bytes_ ? found.too_large : found.files).push_back({used, name, bytes});
     }
-    if (foreign.files > 0 && report_) report_(foreign);
-    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    std::sort(found.files.begin(), found.files.end(), [](const Found& a, const Found& b) {
         return std::tie(a.used, a.name) < std::tie(b.used, b.name);
     });
+    return found;
+}
+
+void DirectoryStore::take_stock(bool is_start) {
+    const std::lock_guard one_thread(evicting_);
+    if (!is_start && !needs_stock()) return;
+    eviction_.hold();
+    const Stock found = stock();
+    if (is_start && found.foreign.files > 0 && report_) report_(found.foreign);
+    std::uint64_t bytes = 0;
+    std::set<std::string_view> names;
+    for (const Found& one : found.files) {
+        bytes += one.bytes;
+        names.insert(one.name);
+    }
+    std::uint64_t room = most_bytes_;
+    {
+        const std::lock_guard lock(mutex_);
+        const bool has_others = std::ranges::any_of(
+            names, [&](std::string_view name) { return !known_.contains(name); });
+        // Where others write too, this would have to be done again for each file.
+        if (has_others && !is_start) room -= most_bytes_ / 16;
+    }
+    std::size_t first = 0;
+    if (bytes > most_bytes_)
+        for (; bytes > room; ++first) {
+            bytes -= found.files[first].bytes;
+            remove_file(path_of(found.files[first].name));
+        }
+    for (const Found& one : found.too_large) remove_file(path_of(one.name));
+    eviction_.release();
     const std::lock_guard lock(mutex_);
-    stats_.evictions += evictions;
-    for (const Found& one : found) register_file(one.name, one.bytes);
-    make_room();
+    stats_.evictions += first + found.too_large.size();
+    // What other threads have written meanwhile.
+    std::map<std::string, std::uint64_t, std::less<>> known;
+    for (const auto& [name, size] : known_)
+        if (!names.contains(name) && is_file(path_of(name))) known.emplace(name, size);
+    for (; first < found.files.size(); ++first)
+        known.emplace(found.files[first].name, found.files[first].bytes);
+    known_ = std::move(known);
+    written_ = 0;
+    stats_.entries = known_.size();
+    stats_.bytes = 0;
+    for (const auto& [name, size] : known_) stats_.bytes += size;
 }
 
 void DirectoryStore::register_file(const std::string& name, std::uint64_t bytes) {
     forget(name);
-    used_.push_front({name, bytes});
-    by_name_.emplace(name, used_.begin());
+    known_.emplace(name, bytes);
     stats_.bytes += bytes;
     ++stats_.entries;
 }
 
 void DirectoryStore::forget(const std::string& name) {
-    const auto found = by_name_.find(name);
-    if (found == by_name_.end()) return;
-    stats_.bytes -= found->second->bytes;
+    const auto found = known_.find(name);
+    if (found == known_.end()) return;
+    stats_.bytes -= found->second;
     --stats_.entries;
-    used_.erase(found->second);
-    by_name_.erase(found);
+    known_.erase(found);
 }
 
-void DirectoryStore::make_room() {
-    while (stats_.bytes > most_bytes_) {
-        const std::string name = used_.back().name;
-        std::error_code gone_already;
-        fs::remove(path_of(name), gone_already);
-        forget(name);
-        ++stats_.evictions;
-    }
+bool DirectoryStore::needs_stock() const {
+    const std::lock_guard lock(mutex_);
+    return stats_.bytes > most_bytes_ || written_ > most_bytes_ / 16;
 }
 
 std::optional<Slice> DirectoryStore::find(std::string_view key) {
@@ -221,23 +352,22 @@ std::optional<Slice> DirectoryStore::find(std::string_view key) {
                             ignored);  // keeps the order of use for the next start
     else if (file)
         fs::remove(path, ignored);
-    const std::lock_guard lock(mutex_);
-    if (body) {
-        ++stats_.hits;
-        register_file(name, file->size());
-        make_room();
-    } else {
-        ++stats_.misses;
-        if (file) ++stats_.damaged;
-        forget(name);
+    {
+        const std::lock_guard lock(mutex_);
+        if (body) {
+            ++stats_.hits;
+            register_file(name, file->size());
+        } else {
+            ++stats_.misses;
+            if (file) ++stats_.damaged;
+            forget(name);
+        }
     }
+    if (body && needs_stock()) take_stock(false);
     return body;
 }
 
-bool DirectoryStore::holds(std::string_view key) const {
-    std::error_code unknown;
-    return fs::is_regular_file(path_of(digest_of(key)), unknown);
-}
+bool DirectoryStore::holds(std::string_view key) const { return is_file(path_of(digest_of(key))); }
 
 bool DirectoryStore::insert(std::string_view key, const Body& body) {
     const std::string name = digest_of(key);
@@ -248,24 +378,29 @@ bool DirectoryStore::insert(std::string_view key, const Body& body) {
     fs::path temporary;
     {
         const std::lock_guard lock(mutex_);
-        temporary = folder_ / aside /
-                    (name + '.' + std::to_string(getpid()) + '.' + std::to_string(next_aside_++));
+        temporary = folder_ / aside / (token_ + '.' + std::to_string(next_aside_++));
     }
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
     if (!error) error = write(temporary, head, body);
+    // By the clock that find() uses, which is finer than that of the file system.
+    if (!error) fs::last_write_time(temporary, fs::file_time_type::clock::now(), error);
     if (!error) fs::rename(temporary, path, error);
     if (error) {
         std::error_code ignored;
         fs::remove(temporary, ignored);
     }
+    if (!error) {
+        {
+            const std::lock_guard lock(mutex_);
+            register_file(name, bytes);
+            written_ += bytes;
+        }
+        if (needs_stock()) take_stock(false);
+        return true;
+    }
     {
         const std::lock_guard lock(mutex_);
-        if (!error) {
-            register_file(name, bytes);
-            make_room();
-            return true;
-        }
         ++stats_.unwritten;
     }
     if (report_) report_({StoreEvent::Kind::unwritten, path, 1, error.message()});

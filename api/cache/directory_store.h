@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <list>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/bytes.h"
 
@@ -26,7 +26,8 @@ struct DirectoryStats {
 struct StoreEvent {
     enum class Kind {
         unwritten,  ///< a body could not be written
-        foreign     ///< the folder contains files that the store has not written: ignored
+        foreign,    ///< the folder contains files that the store has not written: ignored
+        bound       ///< other processes use the folder, with another bound, which holds
     };
     Kind kind = Kind::unwritten;
     std::filesystem::path file;  ///< the file, or the first of several
@@ -39,8 +40,12 @@ struct StoreEvent {
 ///
 /// A file is named by the hash of its key and contains the key, the hash of the body, and the body:
 /// a damaged file is recognised and removed. Files are written under a temporary name and renamed,
-/// so a power failure never leaves an incomplete file under its final name. Processes may share a
-/// folder; each bounds the files that it knows.
+/// so a power failure never leaves an incomplete file under its final name.
+///
+/// Processes may share a folder, also on several machines whose file system has locks (flock). The bound is that of the
+/// folder: the first process that is alone in it sets it, those that come while others use it take it over. Who exceeds
+/// it reads the folder again and evicts what no process has used for longest, one process at a time; as each process
+/// counts what it writes itself until then, N of them may exceed the bound by (N - 1) / 16 of it.
 class DirectoryStore {
   public:
     using Report = std::function<void(const StoreEvent&)>;
@@ -51,8 +56,8 @@ class DirectoryStore {
     /// are larger than the whole bound are removed. A folder in it that is that of another store is
     /// not looked into.
     ///
-    /// most_bytes  of all files together; the least recently used are evicted first, and none is
-    ///             larger than an eighth of it
+    /// most_bytes  of all files together, unless others use the folder with another bound; the least recently used are
+    ///             evicted first, and none is larger than an eighth of it
     /// report      called for events, here and on any thread that inserts, also concurrently; may
     ///             be empty
     /// throws      InvalidInput if the folder cannot be created or written
@@ -73,27 +78,64 @@ class DirectoryStore {
 
     [[nodiscard]] DirectoryStats stats() const;
 
+    /// Returns the bound of the folder, bytes.
+    [[nodiscard]] std::uint64_t most_bytes() const { return most_bytes_; }
+
   private:
-    struct Entry {
+    /// A file of the store in its folder.
+    struct Found {
+        std::filesystem::file_time_type used;
         std::string name;
         std::uint64_t bytes = 0;
+    };
+    /// All files of the folder.
+    struct Stock {
+        std::vector<Found> files;      ///< the least recently used first
+        std::vector<Found> too_large;  ///< than the whole bound
+        StoreEvent foreign;
+    };
+
+    /// A descriptor of a folder, for locks that end with the process.
+    class FolderLock {
+      public:
+        explicit FolderLock(const std::filesystem::path& folder);
+        FolderLock(const FolderLock&) = delete;
+        FolderLock& operator=(const FolderLock&) = delete;
+        ~FolderLock();
+        /// Returns whether nobody else had a lock; on a file system without locks nobody has.
+        [[nodiscard]] bool try_exclusive();
+        void share();
+        void hold();  ///< exclusively, as soon as nobody else has it
+        void release();
+
+      private:
+        int file_;
     };
 
     [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
     [[nodiscard]] std::uint64_t most_of_one() const { return most_bytes_ / 8; }
-    void take_stock();
-    /// Registers a file as the most recently used one. Reads and computes nothing.
+    /// Agrees with other processes on the bound, and removes what nobody writes any more.
+    void join();
+    [[nodiscard]] Stock stock() const;
+    /// Registers the files of a folder, and evicts those for which there is no room.
+    void take_stock(bool is_start);
+    /// Registers a file. Reads and computes nothing.
     void register_file(const std::string& name, std::uint64_t bytes);
     void forget(const std::string& name);
-    void make_room();
+    /// Returns whether files have to be evicted, or others may have written as much as that.
+    [[nodiscard]] bool needs_stock() const;
 
     std::filesystem::path folder_;
     std::uint64_t most_bytes_;
     Report report_;
+    std::string token_;  ///< of this process, in names of files that it writes
+    FolderLock use_,
+        eviction_;         ///< held shared while the store is used; held while files are evicted
+    std::mutex evicting_;  ///< of the threads of this process
     mutable std::mutex mutex_;  ///< guards the members below; not held for reading or writing
-    std::list<Entry> used_;     ///< most recently used first
-    std::map<std::string, std::list<Entry>::iterator, std::less<>> by_name_;
+    std::map<std::string, std::uint64_t, std::less<>> known_;  ///< bytes by name
     std::uint64_t next_aside_ = 0;
+    std::uint64_t written_ = 0;  ///< bytes since stock was taken
     DirectoryStats stats_;
 };
 

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -32,7 +33,8 @@ class Folder {
     [[nodiscard]] std::vector<fs::path> files() const {
         std::vector<fs::path> found;
         for (const auto& entry : fs::recursive_directory_iterator(path_))
-            if (entry.is_regular_file()) found.push_back(entry.path());
+            if (entry.is_regular_file() && entry.path().filename() != "bound")
+                found.push_back(entry.path());
         return found;
     }
     [[nodiscard]] std::uint64_t bytes() const {
@@ -82,6 +84,60 @@ TEST(DirectoryStore, SharesItsFolderWithOtherProcesses) {
     EXPECT_EQ(found_in(one, "a"), "(none)");
     EXPECT_EQ(one.stats().entries, 0u);
     EXPECT_EQ(one.stats().damaged, 0u);
+}
+
+TEST(DirectoryStore, HasTheBoundOfItsFolder) {
+    const Folder folder;
+    std::vector<StoreEvent> events;
+    const auto report = [&](const StoreEvent& event) { events.push_back(event); };
+    {
+        DirectoryStore first(folder.path(), 1 << 20, report);
+        for (int i = 0; i < 8; ++i)
+            first.insert(std::to_string(i), {slice_of(std::string(20'000, 'x'))});
+        EXPECT_TRUE(events.empty());
+        DirectoryStore second(folder.path(), 50'000, report);
+        EXPECT_EQ(second.most_bytes(), std::uint64_t{1} << 20);
+        ASSERT_EQ(events.size(), 1U);
+        EXPECT_EQ(events[0].kind, StoreEvent::Kind::bound);
+        EXPECT_NE(events[0].why.find("1048576"), std::string::npos) << events[0].why;
+        for (int i = 0; i < 8; ++i) EXPECT_NE(found_in(second, std::to_string(i)), "(none)") << i;
+    }
+    DirectoryStore alone(folder.path(), 50'000, report);
+    EXPECT_EQ(events.size(), 1U);
+    EXPECT_EQ(alone.most_bytes(), 50'000U);
+    EXPECT_LE(folder.bytes(), 50'000U);
+}
+
+TEST(DirectoryStore, EvictsWhatNoProcessHasUsedForLongest) {
+    const Folder folder;
+    const std::uint64_t most = 40'000;
+    DirectoryStore one(folder.path(), most), other(folder.path(), most);
+    const auto body = [] { return std::string(2'000, 'x'); };
+    for (int i = 0; i < 8; ++i) one.insert("one " + std::to_string(i), {slice_of(body())});
+    for (int i = 0; i < 6; ++i) other.insert("other " + std::to_string(i), {slice_of(body())});
+    // What one process wrote the other uses.
+    EXPECT_NE(found_in(other, "one 0"), "(none)");
+    for (int i = 8; i < 30; ++i) {
+        (i % 2 ? one : other).insert("more " + std::to_string(i), {slice_of(body())});
+        EXPECT_NE(found_in(other, "one 0"), "(none)") << i;
+        EXPECT_LE(folder.bytes(), most + most / 16 + 2'200) << i;
+    }
+    EXPECT_EQ(found_in(one, "one 1"), "(none)");
+    EXPECT_EQ(found_in(one, "other 0"), "(none)");
+    EXPECT_GT(folder.bytes(), most / 2);
+}
+
+TEST(DirectoryStore, LeavesAloneWhatOthersAreWriting) {
+    const Folder folder;
+    DirectoryStore first(folder.path(), 1 << 20);
+    const fs::path fresh = folder.path() / "aside" / "fresh.0",
+                   old = folder.path() / "aside" / "old.0";
+    std::ofstream(fresh) << "half";
+    std::ofstream(old) << "half";
+    fs::last_write_time(old, fs::file_time_type::clock::now() - std::chrono::hours(2));
+    DirectoryStore second(folder.path(), 1 << 20);
+    EXPECT_TRUE(fs::exists(fresh));
+    EXPECT_FALSE(fs::exists(old)) << "of a process that died";
 }
 
 TEST(DirectoryStore, RemovesWhatIsNotWhatWasWritten) {
