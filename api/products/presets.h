@@ -48,11 +48,16 @@ const typename Kind::Preset& preset_of(const Atlas& atlas, std::string_view id,
                                        const char* parameter, ValidationErrors& errors) {
     if (const auto* preset = Kind::find(atlas, id)) return *preset;
     std::vector<std::string> ids;
-    for (const auto& preset : Kind::presets(atlas)) ids.push_back(preset.id.string());
+    std::string all;
+    for (const auto& preset : Kind::presets(atlas)) {
+        ids.push_back(preset.id.string());
+        (all += all.empty() ? "" : ", ") += ids.back();
+    }
     const std::string_view meant = closest(id, ids);
-    errors.add(404, parameter,
-               std::string("unknown ") + Kind::one + ' ' + in_quotes(id) +
-                   (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+    errors.add(
+        404, parameter,
+        std::string("unknown ") + Kind::one + ' ' + in_quotes(id) +
+            (meant.empty() ? "; there are " + all : "; did you mean " + in_quotes(meant) + "?"));
     return Kind::presets(atlas).front();
 }
 

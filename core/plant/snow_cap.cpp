@@ -125,6 +125,7 @@ Mesh snow_cap(const SnowCapParams& params, const std::function<TrunkSection(doub
         at.push_back(params.length * static_cast<double>(row) / static_cast<double>(rows - 1));
     const std::vector<double> share = depths(params, at);
     std::vector<TrunkSection> sections;
+    sections.reserve(rows);
     for (const double s : at) sections.push_back(section(s));
     SnowGrid grid{columns, {}, {}};
     std::vector<bool> lies(rows);

@@ -31,8 +31,7 @@ std::string model_of(const Placement& row, const PlacementNames& names) {
     if (row.kind == PlacementKind::tree)
         return names.trees[row.species * tree_shapes_of_kind + row.seed - 1];
     if (row.kind != PlacementKind::fungus) return {};
-    return names.folder + names.species[row.species] + ".glb?seed=" + std::to_string(row.seed) +
-           "&age=" + number_text(rounded_age(row));
+    return names.folder + names.species[row.species] + model_of_body(row.seed, rounded_age(row));
 }
 
 /// Returns a moment in days since the beginning of year 0.
@@ -129,6 +128,10 @@ const char* ground_of_guild(Guild guild) {
             return "wood";
     }
     return "";
+}
+
+std::string model_of_body(std::uint32_t seed, double age) {
+    return ".glb?seed=" + std::to_string(seed) + "&age=" + number_text(age) + "&substrate=none";
 }
 
 std::string csv_of(std::span<const Placement> rows, const PlacementNames& names) {

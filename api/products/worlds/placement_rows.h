@@ -1,6 +1,7 @@
 // The rows of placements as CSV, JSON and a binary table.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ struct PlacementNames {
 
 /// Returns what fungi of a guild that are not on a trunk stand on.
 [[nodiscard]] const char* ground_of_guild(Guild guild);
+
+/// Returns what follows the id of a species in the address of the model of a fruit body: without wood of its own, since
+/// that of the world is there.
+[[nodiscard]] std::string model_of_body(std::uint32_t seed, double age);
 
 /// Return rows as text, one line each after a head; as the members of a JSON object whose others `head` has; and as a
 /// table: a head of 24 bytes, rows of 88 bytes, and JSON with the names that they refer to.

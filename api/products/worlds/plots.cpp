@@ -14,6 +14,7 @@
 #include "api/products/word_list.h"
 #include "api/products/worlds/part_request.h"
 #include "api/products/worlds/parts.h"
+#include "api/products/worlds/placement_rows.h"
 #include "api/products/worlds/worlds.h"
 #include "core/grow/world/plot_of_world.h"
 #include "core/grow/world/plot_places.h"
@@ -334,9 +335,8 @@ Value bodies_on(const Context& context, const WorldPlot& plot, WorldTime time) {
                       .set("age", age)
                       .set("days_old",
                            rounded(static_cast<double>(time - body.emerged) / ticks_of_day, 10.0))
-                      .set("model", context.responses.link(
-                                        "/v1/mushrooms/" + species + ".glb?seed=" +
-                                        std::to_string(body.seed()) + "&age=" + number_text(age))));
+                      .set("model", context.responses.link("/v1/mushrooms/" + species +
+                                                           model_of_body(body.seed(), age))));
     }
     return list;
 }

@@ -122,16 +122,15 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     const SineCosine turn = sine_cosine(wood.direction);
     const glm::dvec2 foot(metres(wood.at.x), metres(wood.at.y)), way(turn.cosine, turn.sine);
     const double radius = radius_at(wood, content.time), lost = mass_lost(wood, content.time);
-    // A cut end stays within the slab.
-    WorldBox box = frame.box();
-    const double inset = 1.1 * radius;
-    box.west += inset;
-    box.south += inset;
-    box.east -= inset;
-    box.north -= inset;
-    const auto part = part_within(box, foot, foot + wood.length * way);
+    const auto part = part_within(frame.box(), foot, foot + wood.length * way);
     if (!part) return std::nullopt;
-    const double from = part->first * wood.length, to = part->second * wood.length;
+    // A cut end stays within the slab, unless the trunk hardly crosses its border.
+    constexpr double most_radii = 2.0;
+    const double across = std::max(std::abs(way.x), std::abs(way.y));
+    const double inset =
+        radius * std::min(most_radii, std::sqrt(1.0 - std::min(across * across, 1.0)) / across);
+    const double from = part->first > 0.0 ? part->first * wood.length + inset : 0.0,
+                 to = part->second < 1.0 ? part->second * wood.length - inset : wood.length;
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
     const LogProfile profile(frame.floor(), foot, way, wood.length, smooth_step(0.2, 0.95, lost));
@@ -209,8 +208,7 @@ std::optional<glm::dvec3> BearingTrunks::place(const FruitBody& body, const glm:
                              : body.height;
     // Slightly below the bark, which is uneven.
     constexpr double depth = 0.96;
-    const TrunkSection section =
-        found->second->section(std::clamp(along, found->second->from, found->second->to));
+    const TrunkSection section = found->second->section(std::clamp(along, 0.0, wood->length));
     return section.middle + depth * section.radius * out;
 }
 

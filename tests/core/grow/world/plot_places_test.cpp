@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/math/direction.h"
+#include "core/math/elementary.h"
 #include "core/world/tree_growth.h"
 #include "tests/support/plots.h"
 
@@ -49,6 +51,29 @@ TEST(PlotPlaces, OfATreeScaleItsModelToItsSize) {
     EXPECT_NEAR(glm::length(place.rotation), 1.0, 1e-12);
     const glm::dvec3 foot = on.frame.on_floor(metres(tree.at.x), metres(tree.at.y));
     EXPECT_NEAR(foot.y - place.translation.y, 0.2 * trunk_diameter(height), 1e-12);
+}
+
+TEST(PlotPlaces, OfBodiesOnALogDoNotDependOnThePlot) {
+    const SmallWood& wood = small_wood();
+    const Framed large(wood.content(0.0, 0.0, 32.0));
+    const DeadWood& log = wood.dead.front();
+    const SineCosine turn = sine_cosine(log.direction);
+    FruitBody body;
+    body.trunk = log.id;
+    // A plot at whose border the log lies, so that only its ends cross it.
+    const double beside = 0.6 * radius_at(log, large.content.time);
+    for (double along = 0.3; along < 0.9 * log.length; along += 0.4) {
+        const double x = metres(log.at.x) + along * turn.cosine,
+                     y = metres(log.at.y) + along * turn.sine;
+        body.at = point_at(x, y);
+        const Framed small(wood.content(x - 2.0 * turn.cosine, y + 2.0 - beside, 4.0));
+        BearingTrunks in_large(large.content, large.frame), in_small(small.content, small.frame);
+        const auto whole = in_large.place(body, {0.0, 1.0, 0.0}),
+                   part = in_small.place(body, {0.0, 1.0, 0.0});
+        ASSERT_TRUE(whole && part) << along;
+        EXPECT_LT(glm::distance(*whole + large.frame.origin(), *part + small.frame.origin()), 2e-3)
+            << along;
+    }
 }
 
 TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {
