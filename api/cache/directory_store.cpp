@@ -11,7 +11,6 @@
 #include <chrono>
 #include <fstream>
 #include <memory>
-#include <random>
 #include <set>
 #include <system_error>
 #include <tuple>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "api/http/encoding.h"
+#include "api/http/random.h"
 #include "core/problems.h"
 
 namespace sporeprint::api {
@@ -115,20 +115,6 @@ bool has_holes(const struct stat& status) {
     return size >= smallest && static_cast<std::uint64_t>(status.st_blocks) * block < size / 8;
 }
 
-/// Returns a name that no other process has: ids of processes are equal in containers.
-std::string random_token() {
-    std::random_device device;
-    std::string token;
-    for (int i = 0; i < 4; ++i) {
-        std::array<char, 8> digits{};
-        const auto bits = static_cast<std::uint32_t>(device());
-        for (std::size_t k = 0; k < digits.size(); ++k)
-            digits[k] = "0123456789abcdef"[bits >> (4 * k) & 15U];
-        token.append(digits.data(), digits.size());
-    }
-    return token;
-}
-
 bool is_file(const fs::path& path) {
     std::error_code unknown;
     return fs::is_regular_file(path, unknown);
@@ -146,7 +132,7 @@ void remove_file(const fs::path& path) {
 fs::path writable(fs::path folder) {
     std::error_code error;
     fs::create_directories(folder / aside, error);
-    const fs::path probe = folder / aside / (random_token() + ".probe");
+    const fs::path probe = folder / aside / (random_name() + ".probe");
     if (!error) error = write(probe, format, {});
     if (error)
         throw InvalidInput(folder.string(), "the folder cannot be written: " + error.message());
@@ -156,7 +142,7 @@ fs::path writable(fs::path folder) {
 
 /// Writes the bound of a folder; one that cannot be written is that of each process alone.
 void write_bound(const fs::path& path, std::uint64_t bytes) {
-    const fs::path temporary = path.parent_path() / aside / (random_token() + ".bound");
+    const fs::path temporary = path.parent_path() / aside / (random_name() + ".bound");
     std::error_code error = write(temporary, std::to_string(bytes) + '\n', {});
     if (!error) fs::rename(temporary, path, error);
     if (error) remove_file(temporary);
@@ -199,7 +185,8 @@ DirectoryStore::DirectoryStore(fs::path folder, std::uint64_t most_bytes, Report
     : folder_(writable(std::move(folder))),
       most_bytes_(most_bytes),
       report_(std::move(report)),
-      token_(random_token()),
+      // Ids of processes are equal in containers.
+      token_(random_name()),
       use_(folder_ / aside),
       eviction_(folder_) {
     join();
@@ -234,7 +221,7 @@ void DirectoryStore::join() {
          i.increment(error)) {
         std::error_code ignored;
         const auto written = fs::last_write_time(i->path(), ignored);
-        if (is_alone || (!ignored && now - written > abandoned)) fs::remove(i->path(), ignored);
+        if (is_alone || (!ignored && now - written > abandoned)) remove_file(i->path());
     }
     if (is_alone) use_.share();
 }
@@ -351,7 +338,7 @@ std::optional<Slice> DirectoryStore::find(std::string_view key) {
         fs::last_write_time(path, fs::file_time_type::clock::now(),
                             ignored);  // keeps the order of use for the next start
     else if (file)
-        fs::remove(path, ignored);
+        remove_file(path);
     {
         const std::lock_guard lock(mutex_);
         if (body) {
@@ -386,10 +373,7 @@ bool DirectoryStore::insert(std::string_view key, const Body& body) {
     // By the clock that find() uses, which is finer than that of the file system.
     if (!error) fs::last_write_time(temporary, fs::file_time_type::clock::now(), error);
     if (!error) fs::rename(temporary, path, error);
-    if (error) {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
-    }
+    if (error) remove_file(temporary);
     if (!error) {
         {
             const std::lock_guard lock(mutex_);

@@ -1,25 +1,13 @@
 #include "api/cache/photos.h"
 
-#include <openssl/rand.h>
-
 #include <algorithm>
-#include <array>
-#include <stdexcept>
 #include <utility>
 
-#include "api/http/text.h"
+#include "api/http/random.h"
 
 namespace sporeprint::api {
 
 namespace {
-
-/// Returns 128 random bits in base64url.
-std::string random_name() {
-    std::array<std::uint8_t, 16> bits{};
-    if (RAND_bytes(bits.data(), static_cast<int>(bits.size())) != 1)
-        throw std::runtime_error("the system gives no random numbers");
-    return base64url_text(bits);
-}
 
 /// Returns the size of a cut: a working copy of three bytes a pixel, and a mask of one.
 std::size_t cut_bytes(const StoredPhoto& photo) {

@@ -1,13 +1,12 @@
 #include "api/library/tokens.h"
 
 #include <openssl/crypto.h>
-#include <openssl/rand.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <stdexcept>
 
+#include "api/http/random.h"
 #include "api/http/text.h"
 #include "core/params/types.h"
 
@@ -19,14 +18,6 @@ constexpr std::size_t id_length = 8, secret_length = 43;
 
 /// Characters of ids: 32, none of which looks like another.
 constexpr std::string_view id_characters = "abcdefghijkmnpqrstuvwxyz23456789";
-
-template <std::size_t Count>
-std::array<std::uint8_t, Count> random_bytes() {
-    std::array<std::uint8_t, Count> bytes{};
-    if (RAND_bytes(bytes.data(), static_cast<int>(Count)) != 1)
-        throw std::runtime_error("the system gives no random numbers");
-    return bytes;
-}
 
 }  // namespace
 

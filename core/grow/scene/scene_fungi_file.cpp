@@ -47,12 +47,8 @@ class FungiFile {
                 shape.mesh.tangents.clear();
             }
         const bool is_crowded = bodies_.bodies.size() > most_scene_nodes;
-        BodyNodes added =
-            add_bodies(scene_, materials_, bodies_,
-                       options_.instancing == LeafInstancing::gpu ? BodyGrouping::instanced
-                       : is_crowded                               ? BodyGrouping::merged
-                                                                  : BodyGrouping::none,
-                       merged_);
+        BodyNodes added = add_bodies(scene_, materials_, bodies_,
+                                     grouping_of(options_.instancing, is_crowded), merged_);
         nodes_ = std::move(added.nodes);
         box_ = added.box;
         Grown grown;

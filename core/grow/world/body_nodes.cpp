@@ -1,6 +1,5 @@
 #include "core/grow/world/body_nodes.h"
 
-#include <glm/common.hpp>
 #include <string>
 #include <utility>
 
@@ -10,15 +9,6 @@
 namespace sporeprint {
 
 namespace {
-
-void include(Bounds& box, const Mesh& mesh, const GlbTransform& place) {
-    for (const glm::vec3& at : mesh.positions) {
-        const glm::vec3 in_scene(place.translation +
-                                 rotated(place.rotation, place.scale * glm::dvec3(at)));
-        box.min = glm::min(box.min, in_scene);
-        box.max = glm::max(box.max, in_scene);
-    }
-}
 
 /// Adds one node for all bodies of a shape.
 void add_group(GlbScene& scene, BodyNodes& added, const PlotBodies::Shape& shape,
@@ -40,6 +30,19 @@ void add_group(GlbScene& scene, BodyNodes& added, const PlotBodies::Shape& shape
 }
 
 }  // namespace
+
+BodyGrouping grouping_of(LeafInstancing instancing, bool is_crowded) {
+    if (instancing == LeafInstancing::gpu) return BodyGrouping::instanced;
+    return is_crowded ? BodyGrouping::merged : BodyGrouping::none;
+}
+
+void include(Bounds& box, const Mesh& mesh, const GlbTransform& place) {
+    for (const glm::vec3& at : mesh.positions) {
+        const glm::vec3 in_scene(place.translation +
+                                 rotated(place.rotation, place.scale * glm::dvec3(at)));
+        box = united(box, {in_scene, in_scene});
+    }
+}
 
 BodyNodes add_bodies(GlbScene& scene, WorldMaterials& materials, const PlotBodies& bodies,
                      BodyGrouping grouping, std::deque<Mesh>& merged) {

@@ -20,6 +20,14 @@ enum class BodyGrouping {
     instanced,  ///< one node for all of a shape, with EXT_mesh_gpu_instancing
 };
 
+/// Returns how the bodies of a file are written.
+///
+/// is_crowded  a node for each would be too many
+[[nodiscard]] BodyGrouping grouping_of(LeafInstancing instancing, bool is_crowded);
+
+/// Includes what a mesh at a place covers.
+void include(Bounds& box, const Mesh& mesh, const GlbTransform& place);
+
 /// What was added to a scene.
 struct BodyNodes {
     std::vector<std::size_t> nodes;  ///< of each body, in the order of the bodies

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <glm/common.hpp>
 #include <map>
 #include <memory>
 #include <utility>
@@ -20,7 +19,6 @@
 #include "core/grow/world/plot_parts.h"
 #include "core/grow/world/tile_grass.h"
 #include "core/grow/world/world_materials.h"
-#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/world/floor_image.h"
 #include "core/world/snow.h"
@@ -139,15 +137,6 @@ class PlotScene {
         add_grass(grass_of(content_, frame, cover, std::min(most_of_grass, left)));
     }
 
-    void include(const Mesh& mesh, const GlbTransform& place) {
-        for (const glm::vec3& at : mesh.positions) {
-            const glm::vec3 in_scene(place.translation +
-                                     rotated(place.rotation, place.scale * glm::dvec3(at)));
-            box_.min = glm::min(box_.min, in_scene);
-            box_.max = glm::max(box_.max, in_scene);
-        }
-    }
-
     /// Removes what a mesh needs for images only, if there are none.
     void without_images(Mesh& mesh) const {
         if (options_.textures != Textures::none) return;
@@ -159,7 +148,7 @@ class PlotScene {
     std::size_t add_single(Mesh mesh, const std::string& name, std::size_t material, GlbRole role) {
         meshes_.push_back(std::move(mesh));
         const Mesh& own = meshes_.back();
-        include(own, {});
+        include(box_, own, {});
         vertices_ += own.positions.size();
         triangles_ += own.triangles();
         scene_.nodes.push_back({.name = name, .mesh = scene_.meshes.size()});
@@ -206,8 +195,8 @@ class PlotScene {
                  .rotation = tree.place.rotation,
                  .scale = tree.place.scale});
             triangles_ += shape.meshes->triangles();
-            include(shape.meshes->bark, tree.place);
-            include(shape.meshes->leaves, tree.place);
+            include(box_, shape.meshes->bark, tree.place);
+            include(box_, shape.meshes->leaves, tree.place);
         }
     }
 
@@ -265,17 +254,12 @@ class PlotScene {
 
     void add_bodies() {
         const bool is_crowded = scene_.nodes.size() + bodies_.bodies.size() > most_plot_nodes;
-        BodyNodes added = sporeprint::add_bodies(scene_, materials_, bodies_,
-                                                 options_.instancing == LeafInstancing::gpu
-                                                     ? BodyGrouping::instanced
-                                                 : is_crowded ? BodyGrouping::merged
-                                                              : BodyGrouping::none,
-                                                 meshes_);
+        BodyNodes added = sporeprint::add_bodies(
+            scene_, materials_, bodies_, grouping_of(options_.instancing, is_crowded), meshes_);
         body_nodes_ = std::move(added.nodes);
         vertices_ += added.vertices;
         triangles_ += added.triangles;
-        box_.min = glm::min(box_.min, added.box.min);
-        box_.max = glm::max(box_.max, added.box.max);
+        box_ = united(box_, added.box);
     }
 
     Value extras_value() const {

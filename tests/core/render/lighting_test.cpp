@@ -91,11 +91,16 @@ std::vector<std::vector<bool>> all_of(const DrawList& list) {
     return used;
 }
 
+/// Returns a scene of two balls, of which the second stands on the first and shades it.
+GlbScene stacked(const Mesh& ball) {
+    GlbScene scene = scene_of(ball);
+    scene.nodes.push_back({.name = "upper", .mesh = 0, .translation = {0.0, 0.1, 0.0}});
+    return scene;
+}
+
 TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
     const Mesh mesh = ball(0.05F, {0.0F, 0.2F, 0.0F});
-    GlbScene scene = scene_of(mesh);
-    // A second ball stands on the first and shades it.
-    scene.nodes.push_back({.name = "upper", .mesh = 0, .translation = {0.0, 0.1, 0.0}});
+    const GlbScene scene = stacked(mesh);
     const DrawList list = draw_list(scene, in_turn);
     const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
     const auto found =
@@ -115,8 +120,7 @@ TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
 
 TEST(Lighting, IsComputedWhereItIsUsedAlone) {
     const Mesh mesh = ball(0.05F, {0.0F, 0.2F, 0.0F});
-    GlbScene scene = scene_of(mesh);
-    scene.nodes.push_back({.name = "upper", .mesh = 0, .translation = {0.0, 0.1, 0.0}});
+    const GlbScene scene = stacked(mesh);
     const DrawList list = draw_list(scene, in_turn);
     const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
     const std::vector<ShadowMap> shadows = shadow_maps(list, lights, 128, in_turn);

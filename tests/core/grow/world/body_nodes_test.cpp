@@ -4,11 +4,11 @@
 
 #include <cstddef>
 #include <deque>
-#include <glm/common.hpp>
 #include <string>
 
-#include "core/grow/mushroom.h"
+#include "tests/support/atlas.h"
 #include "tests/support/meshes.h"
+#include "tests/support/orders.h"
 #include "tests/support/plots.h"
 
 namespace sporeprint::grow_body_nodes_test {
@@ -68,10 +68,7 @@ TEST(BodyNodes, CountTheSameTrianglesWithinTheSameBox) {
     EXPECT_EQ(each.nodes.box.min, merged.nodes.box.min);
     EXPECT_EQ(each.nodes.box.max, instanced.nodes.box.max);
     Bounds box = bounds(merged.merged.front());
-    for (const Mesh& mesh : merged.merged) {
-        box.min = glm::min(box.min, bounds(mesh).min);
-        box.max = glm::max(box.max, bounds(mesh).max);
-    }
+    for (const Mesh& mesh : merged.merged) box = united(box, bounds(mesh));
     EXPECT_EQ(box.min, merged.nodes.box.min);
     EXPECT_EQ(box.max, merged.nodes.box.max);
 }
