@@ -273,19 +273,56 @@ World world_of(const WorldParams& params, const WorldLookup& lookup,
 }
 
 std::size_t Block::bytes() const {
-    return sizeof(Block) + trees.size() * sizeof(StandTree) + dead.size() * sizeof(DeadWood);
+    return sizeof(Block) + trees.size() * sizeof(StandTree) + dead.size() * sizeof(DeadWood) +
+           falls.standing.size() * sizeof(StandingTrunk) +
+           falls.fallen.size() * sizeof(FallenTrunk);
+}
+
+namespace {
+
+FallSiteAt slopes_of(const World& world) {
+    return [&world](WorldPoint at) {
+        const Place place = world.place_at(at);
+        return FallSite{place.east, place.north};
+    };
+}
+
+}  // namespace
+
+std::vector<StandTree> trees_of_block(const World& world, CellIndex block) {
+    return trees_of(
+        world.stand, [&](WorldPoint at) { return world.site_at(at); }, block,
+        [&](WorldPoint at) { return world.dim_site_at(at); });
+}
+
+Falls falls_of_block(const World& world, std::span<const StandTree> trees) {
+    return falls_of(world.stand, trees, slopes_of(world), world.downwind());
+}
+
+std::vector<DeadWood> wood_of_block(const World& world, std::span<const StandTree> trees,
+                                    std::span<const Falls* const> near) {
+    return dead_wood_of(world.stand, trees, near, slopes_of(world), world.downwind());
+}
+
+std::array<CellIndex, 9> blocks_about(CellIndex block) {
+    std::array<CellIndex, 9> out;
+    for (int i = 0; i < 9; ++i)
+        out[static_cast<std::size_t>(i)] = {block.x + i % 3 - 1, block.y + i / 3 - 1};
+    return out;
 }
 
 Block block_of(const World& world, CellIndex block) {
     Block out;
-    out.trees = trees_of(
-        world.stand, [&](WorldPoint at) { return world.site_at(at); }, block,
-        [&](WorldPoint at) { return world.dim_site_at(at); });
-    const auto slope = [&](WorldPoint at) {
-        const Place place = world.place_at(at);
-        return FallSite{place.east, place.north};
-    };
-    out.dead = dead_wood_of(world.stand, out.trees, slope, world.downwind());
+    std::array<Falls, 9> falls;
+    std::array<const Falls*, 9> near{};
+    const std::array<CellIndex, 9> about = blocks_about(block);
+    for (std::size_t i = 0; i < about.size(); ++i) {
+        std::vector<StandTree> trees = trees_of_block(world, about[i]);
+        falls[i] = falls_of_block(world, trees);
+        near[i] = &falls[i];
+        if (about[i] == block) out.trees = std::move(trees);
+    }
+    out.dead = wood_of_block(world, out.trees, near);
     return out;
 }
 

@@ -288,7 +288,7 @@ std::vector<std::uint16_t> numbers_of(const MapRequest& request, const MapSource
         throw_if_cancelled(execution);
         const WorldBox box = box_of(block);
         const double reach = shade_reach + 1.0;
-        return crowns_in(*source.world, blocks_round(*source.world, box, execution).trees,
+        return crowns_in(*source.world, trees_round(*source.world, box, execution),
                          {box.west - reach, box.south - reach, box.east + reach, box.north + reach},
                          request.moment());
     };
@@ -296,7 +296,7 @@ std::vector<std::uint16_t> numbers_of(const MapRequest& request, const MapSource
     inputs.litter = [&](CellIndex block) {
         const WorldBox box = box_of(block);
         const double reach = most_litter_reach;
-        return litter_in(blocks_round(*source.world, box, execution).trees,
+        return litter_in(trees_round(*source.world, box, execution),
                          {box.west - reach, box.south - reach, box.east + reach, box.north + reach},
                          request.moment());
     };

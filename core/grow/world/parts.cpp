@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -38,38 +39,98 @@ WeatherYear weather_in(const World& world, int year) {
     return weather_of(world.params.climate, world.params.seed, std::max(year, 0));
 }
 
-/// Computes the blocks that a rectangle is part of.
-void compute_blocks(const World& world, const WorldBox& box, const ExecutionContext& execution) {
+/// Returns what trunks may fall on in a block, cached or computed now.
+///
+/// trees  whether its trees are needed besides: then they are cached too. Most blocks at the rim need nothing else
+std::shared_ptr<const Block> falls_of_world(const World& world, CellIndex block, bool trees,
+                                            const ExecutionContext& execution) {
+    return execution.caches.blocks(
+        key_of("falls ", world, std::array<int, 2>{block.x, block.y}), [&] {
+            throw_if_cancelled(execution);
+            Block out;
+            out.falls = trees
+                            ? falls_of_block(world, trees_of_world(world, block, execution)->trees)
+                            : falls_of_block(world, trees_of_block(world, block));
+            return std::make_shared<const Block>(std::move(out));
+        });
+}
+
+/// Computes the trees of the blocks that a rectangle is part of, and the dead wood of those of another one.
+void compute_blocks(const World& world, const WorldBox& of_trees,
+                    const std::optional<WorldBox>& of_wood, const ExecutionContext& execution) {
+    std::set<CellIndex, CellOrder> trees, falls;
+    for (const CellIndex block : blocks_of(of_trees)) trees.insert(block);
+    const std::vector<CellIndex> wood = of_wood ? blocks_of(*of_wood) : std::vector<CellIndex>();
+    for (const CellIndex block : wood) {
+        trees.insert(block);
+        for (const CellIndex near : blocks_about(block)) falls.insert(near);
+    }
+    std::set<CellIndex, CellOrder> all = trees;
+    all.insert(falls.begin(), falls.end());
     std::vector<std::function<void()>> tasks;
-    for (const CellIndex block : blocks_of(box))
-        tasks.emplace_back([&world, &execution, block] {
-            static_cast<void>(block_of_world(world, block, execution));
+    tasks.reserve(all.size());
+    for (const CellIndex block : all)
+        tasks.emplace_back([&, block] {
+            if (trees.contains(block)) static_cast<void>(trees_of_world(world, block, execution));
+            if (falls.contains(block))
+                static_cast<void>(falls_of_world(world, block, trees.contains(block), execution));
         });
     execution.parallel(tasks);
+    tasks.clear();
+    for (const CellIndex block : wood)
+        tasks.emplace_back([&world, &execution, block] {
+            static_cast<void>(wood_of_world(world, block, execution));
+        });
+    execution.parallel(tasks);
+}
+
+/// Returns the rectangle of whose blocks trees may shade a rectangle, or trunks may lie in it.
+WorldBox about(const World& world, const WorldBox& box) {
+    // Crowns shade places near a plot from shade_reach, and litter comes from there too.
+    constexpr double shading = 42.0, beside = 2.0;
+    return grown(box, std::max(shading, longest_trunk(world.stand) + beside));
+}
+
+/// Returns the chosen trees of the blocks of a rectangle, by ascending ids.
+template <class IsTree>
+std::vector<StandTree> chosen_trees(const World& world, const WorldBox& wide,
+                                    const ExecutionContext& execution, const IsTree& is_tree) {
+    std::vector<StandTree> out;
+    for (const CellIndex at : blocks_of(wide))
+        std::ranges::copy_if(trees_of_world(world, at, execution)->trees, std::back_inserter(out),
+                             is_tree);
+    sort_by_id(out);
+    return out;
 }
 
 /// Returns the chosen trees and trunks of the blocks round a rectangle, by ascending ids.
 template <class IsTree, class IsWood>
 Block chosen_round(const World& world, const WorldBox& box, const ExecutionContext& execution,
                    const IsTree& is_tree, const IsWood& is_wood) {
-    // Crowns shade places near a plot from shade_reach, and litter comes from there too.
-    constexpr double shading = 42.0, beside = 2.0;
-    const double reach = std::max(shading, longest_trunk(world.stand) + beside);
-    compute_blocks(world, grown(box, reach), execution);
+    const WorldBox wide = about(world, box);
+    compute_blocks(world, wide, wide, execution);
     Block out;
-    for (const CellIndex at : blocks_of(grown(box, reach))) {
-        const std::shared_ptr<const Block> block = block_of_world(world, at, execution);
-        std::ranges::copy_if(block->trees, std::back_inserter(out.trees), is_tree);
-        std::ranges::copy_if(block->dead, std::back_inserter(out.dead), is_wood);
-    }
-    sort_by_id(out.trees);
+    out.trees = chosen_trees(world, wide, execution, is_tree);
+    for (const CellIndex at : blocks_of(wide))
+        std::ranges::copy_if(wood_of_world(world, at, execution)->dead,
+                             std::back_inserter(out.dead), is_wood);
     sort_by_id(out.dead);
     return out;
 }
 
-/// Returns how far away lies what decides on the fruit bodies of a rectangle, metres.
-double reach_of(const Influence& influence) {
-    return std::max({influence.trees, influence.wood, influence.light + shade_reach});
+/// Returns the chosen trees alone.
+template <class IsTree>
+std::vector<StandTree> chosen_trees_round(const World& world, const WorldBox& box,
+                                          const ExecutionContext& execution,
+                                          const IsTree& is_tree) {
+    const WorldBox wide = about(world, box);
+    compute_blocks(world, wide, std::nullopt, execution);
+    return chosen_trees(world, wide, execution, is_tree);
+}
+
+/// Returns how far away trees decide on the fruit bodies of a rectangle, metres.
+double trees_within(const Influence& influence) {
+    return std::max(influence.trees, influence.light + shade_reach);
 }
 
 /// What stands and lies round a rectangle, as far as its fungi depend on it. Not for use by several threads.
@@ -83,12 +144,12 @@ class Environs {
                    [this](const Region& wide) { return trees_in(wide); }) {
         const Region of_trees = region.grown(influence.trees),
                      of_wood = region.grown(influence.wood);
-        const WorldBox box = box_of(region.grown(std::max(influence.trees, influence.wood)));
-        for (const CellIndex at : blocks_of(box)) {
-            const Block& block = block_at(at);
-            for (const StandTree& tree : block.trees)
+        for (const CellIndex at : blocks_of(box_of(of_trees)))
+            for (const StandTree& tree : trees_at(at))
                 if (of_trees.contains(tree.at)) trees_.push_back(tree);
-            for (const DeadWood& wood : block.dead)
+        for (const CellIndex at : blocks_of(box_of(of_wood))) {
+            const std::shared_ptr<const Block> block = wood_of_world(world, at, execution);
+            for (const DeadWood& wood : block->dead)
                 if (of_wood.contains(wood.at)) wood_.push_back(wood);
         }
     }
@@ -100,21 +161,21 @@ class Environs {
     [[nodiscard]] Surroundings around() const { return {trees_, wood_}; }
 
   private:
-    const Block& block_at(CellIndex at) {
-        std::shared_ptr<const Block>& block = blocks_[{at.x, at.y}];
-        if (!block) block = block_of_world(world_, at, execution_);
-        return *block;
+    const std::vector<StandTree>& trees_at(CellIndex at) {
+        std::shared_ptr<const Block>& block = blocks_[at];
+        if (!block) block = trees_of_world(world_, at, execution_);
+        return block->trees;
     }
 
     std::vector<std::span<const StandTree>> trees_in(const Region& region) {
         std::vector<std::span<const StandTree>> lists;
-        for (const CellIndex at : blocks_of(box_of(region))) lists.emplace_back(block_at(at).trees);
+        for (const CellIndex at : blocks_of(box_of(region))) lists.emplace_back(trees_at(at));
         return lists;
     }
 
     const World& world_;
     const ExecutionContext& execution_;
-    std::map<std::array<std::int32_t, 2>, std::shared_ptr<const Block>> blocks_;
+    std::map<CellIndex, std::shared_ptr<const Block>, CellOrder> blocks_;
     std::vector<StandTree> trees_;
     std::vector<DeadWood> wood_;
     WorldHabitat habitat_;
@@ -242,13 +303,33 @@ WorldLookup lookup_in(const Atlas& atlas) {
     return {tree, species};
 }
 
-std::shared_ptr<const Block> block_of_world(const World& world, CellIndex block,
+std::shared_ptr<const Block> trees_of_world(const World& world, CellIndex block,
                                             const ExecutionContext& execution) {
-    return execution.caches.blocks(key_of("block ", world, std::array<int, 2>{block.x, block.y}),
+    return execution.caches.blocks(key_of("trees ", world, std::array<int, 2>{block.x, block.y}),
                                    [&] {
                                        throw_if_cancelled(execution);
-                                       return std::make_shared<const Block>(block_of(world, block));
+                                       Block out;
+                                       out.trees = trees_of_block(world, block);
+                                       return std::make_shared<const Block>(std::move(out));
                                    });
+}
+
+std::shared_ptr<const Block> wood_of_world(const World& world, CellIndex block,
+                                           const ExecutionContext& execution) {
+    return execution.caches.blocks(
+        key_of("wood ", world, std::array<int, 2>{block.x, block.y}), [&] {
+            std::array<std::shared_ptr<const Block>, 9> about;
+            std::array<const Falls*, 9> near{};
+            const std::array<CellIndex, 9> blocks = blocks_about(block);
+            for (std::size_t i = 0; i < blocks.size(); ++i) {
+                about[i] = falls_of_world(world, blocks[i], blocks[i] == block, execution);
+                near[i] = &about[i]->falls;
+            }
+            throw_if_cancelled(execution);
+            Block out;
+            out.dead = wood_of_block(world, trees_of_world(world, block, execution)->trees, near);
+            return std::make_shared<const Block>(std::move(out));
+        });
 }
 
 std::shared_ptr<const BlockMycelia> mycelia_of_world(const World& world, CellIndex block, int epoch,
@@ -273,6 +354,17 @@ Block blocks_round(const World& world, const WorldBox& box, const ExecutionConte
     return chosen_round(world, box, execution, all, all);
 }
 
+std::vector<StandTree> trees_round(const World& world, const WorldBox& box,
+                                   const ExecutionContext& execution) {
+    return chosen_trees_round(world, box, execution, [](const StandTree&) { return true; });
+}
+
+std::vector<StandTree> living_round(const World& world, const WorldBox& box, WorldTime time,
+                                    const ExecutionContext& execution) {
+    return chosen_trees_round(world, box, execution,
+                              [time](const StandTree& tree) { return tree.lives_at(time); });
+}
+
 Block present_round(const World& world, const WorldBox& box, WorldTime time,
                     const ExecutionContext& execution) {
     return chosen_round(
@@ -283,7 +375,8 @@ Block present_round(const World& world, const WorldBox& box, WorldTime time,
 void compute_surroundings(const World& world, const WorldBox& box,
                           const ExecutionContext& execution) {
     const Influence influence = influence_on(world.species, world.stand);
-    compute_blocks(world, grown(box, reach_of(influence)), execution);
+    compute_blocks(world, grown(box, trees_within(influence)), grown(box, influence.wood),
+                   execution);
 }
 
 void with_surroundings(const World& world, const Region& region, int year,

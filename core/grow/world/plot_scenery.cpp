@@ -117,8 +117,8 @@ TreeLevels levels_at(double distance, double height, bool low, bool seen, double
     if (apparent < 16.0) return {1, 1};
     if (apparent < 45.0) return {2, 2};
     if (apparent < 75.0) return {3, 3};
-    const int far = apparent < 100.0 ? 0 : 1;
-    return {first_far_lod + far, first_far_lod + far};
+    // Later levels have closed clumps for foliage, which look like pebbles where many trees stand together.
+    return {first_far_lod, first_far_lod};
 }
 
 /// The scene of a picture with everything that it refers to.
@@ -142,7 +142,8 @@ class Scenery {
 
     const GlbScene& build() {
         place_squares();
-        around_ = present_round(world_, far_, plot_.time, execution_);
+        around_.trees = living_round(world_, far_, plot_.time, execution_);
+        around_.dead = present_round(world_, middle_, plot_.time, execution_).dead;
         bodies_ = bodies_in(world_, near_, plot_.time, execution_);
         canopy_.emplace(crowns_in(world_, around_.trees, grown(far_, shade_reach), plot_.time));
         const PlotContent middle = content_on(middle_);

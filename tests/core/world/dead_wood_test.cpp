@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <map>
 #include <vector>
 
@@ -26,17 +29,48 @@ struct Block {
 
 /// Returns a square of blocks, on ground of one slope.
 Block blocks_of(const Stand& stand, const FallSite& slope, double downwind) {
+    const auto site = [&](WorldPoint) { return slope; };
+    std::map<CellIndex, std::vector<StandTree>> trees;
+    std::map<CellIndex, Falls> falls;
+    for (int y = -1; y < 3; ++y)
+        for (int x = -1; x < 3; ++x) {
+            const CellIndex at{x, y};
+            trees[at] = trees_of(
+                stand, [](WorldPoint) { return Site{}; }, at);
+            falls[at] = falls_of(stand, trees[at], site, downwind);
+        }
     Block out;
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 2; ++x) {
-            const std::vector<StandTree> trees =
-                trees_of(stand, [](WorldPoint) { return Site{}; }, {x, y});
-            const std::vector<DeadWood> dead = dead_wood_of(
-                stand, trees, [&](WorldPoint) { return slope; }, downwind);
-            out.trees.insert(out.trees.end(), trees.begin(), trees.end());
+            std::vector<const Falls*> near;
+            for (int k = 0; k < 9; ++k) near.push_back(&falls.at({x + k % 3 - 1, y + k / 3 - 1}));
+            const std::vector<DeadWood> dead =
+                dead_wood_of(stand, trees.at({x, y}), near, site, downwind);
+            out.trees.insert(out.trees.end(), trees[{x, y}].begin(), trees[{x, y}].end());
             out.dead.insert(out.dead.end(), dead.begin(), dead.end());
         }
     return out;
+}
+
+/// Returns a place along a log, metres.
+glm::dvec2 place_on(const DeadWood& log, double along) {
+    return {metres(log.at.x) + along * std::cos(log.direction),
+            metres(log.at.y) + along * std::sin(log.direction)};
+}
+
+/// Returns whether a log lies in the trunk of a tree.
+bool lies_in(const DeadWood& log, const StandTree& tree, WorldTime time) {
+    const glm::dvec2 foot(metres(log.at.x), metres(log.at.y));
+    if (tree.id == log.tree ||
+        glm::distance(foot, {metres(tree.at.x), metres(tree.at.y)}) > log.length + 1.0)
+        return false;
+    const double trunk = 0.5 * trunk_diameter(height_at(tree, time));
+    const glm::dvec2 at(metres(tree.at.x), metres(tree.at.y));
+    for (double along = 0.0; along < log.length; along += 0.05) {
+        const double own = radius_at(log, time) * (1.0 - 0.8 * along / log.length);
+        if (glm::distance(place_on(log, along), at) < own + trunk) return true;
+    }
+    return false;
 }
 
 constexpr double area = 4.0 * block_side * block_side / 1e4;  // hectares
@@ -99,6 +133,50 @@ TEST(DeadWood, LiesDownwindAndOnSlopesAlsoDownhill) {
         all += 1.0;
     }
     EXPECT_NEAR(west / all, 0.5, 0.08);
+}
+
+TEST(DeadWood, LiesBesideTreesThatLive) {
+    const Block block = blocks_of(wood(), {}, 0.7);
+    const WorldTime time = time_of(90);
+    std::vector<StandTree> alive;
+    for (const StandTree& tree : block.trees)
+        if (tree.lives_at(time)) alive.push_back(tree);
+    const auto lies_in_one = [&](const DeadWood& log) {
+        for (const StandTree& tree : alive)
+            if (lies_in(log, tree, time)) return true;
+        return false;
+    };
+    std::size_t logs = 0, in_trunks = 0, would = 0;
+    for (const DeadWood& log : block.dead) {
+        if (!log.lies_at(time)) continue;
+        ++logs;
+        DeadWood turned = log;
+        turned.direction += 0.2;
+        in_trunks += lies_in_one(log) ? 1 : 0;
+        would += lies_in_one(turned) ? 1 : 0;
+    }
+    EXPECT_GT(logs, 80U);
+    EXPECT_GT(would * 8, logs) << "Hardly a log has a tree beside it.";
+    EXPECT_LT(in_trunks * 25, logs);
+}
+
+TEST(DeadWood, FallsAsTheWindBlowsWhereNothingStands) {
+    const auto site = [](WorldPoint) { return FallSite{}; };
+    const std::vector<StandTree> trees =
+        trees_of(wood(), [](WorldPoint) { return Site{}; }, {0, 0});
+    const Falls falls = falls_of(wood(), trees, site, 0.7);
+    const std::array<const Falls*, 1> all = {&falls};
+    const std::vector<DeadWood> free = dead_wood_of(wood(), trees, {}, site, 0.7),
+                                among = dead_wood_of(wood(), trees, all, site, 0.7);
+    ASSERT_EQ(free.size(), among.size());
+    std::size_t turned = 0;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        DeadWood same = among[i];
+        if (same.direction != free[i].direction) ++turned;
+        same.direction = free[i].direction;
+        EXPECT_EQ(same, free[i]) << "What stands round it decides on its direction alone.";
+    }
+    EXPECT_GT(turned * 4, free.size());
 }
 
 TEST(DeadWood, IsTakenAwayOrLastsLongerAsTheParameterSays) {

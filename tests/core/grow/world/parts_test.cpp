@@ -110,7 +110,7 @@ TEST(WorldParts, OfTreesAreThoseOfAllBlocksThatMayShadeARectangle) {
     for (const StandTree& tree : around.trees) ++found[block_at(tree.at)];
     EXPECT_EQ(found.size(), 9U) << "42 m are more than to the next block in all directions";
     for (const auto& [block, number] : found)
-        EXPECT_EQ(number, block_of_world(world, block, shared())->trees.size());
+        EXPECT_EQ(number, trees_of_world(world, block, shared())->trees.size());
     EXPECT_LT(blocks_round(world, {-5, -5, 5, 5}, shared()).trees.size(), around.trees.size());
 }
 
@@ -126,6 +126,8 @@ TEST(WorldParts, OfAMomentAreThoseThatAreThereThen) {
     const Block present = present_round(world, box, time, shared());
     EXPECT_FALSE(present.trees.empty());
     EXPECT_EQ(present.trees, all.trees);
+    EXPECT_EQ(living_round(world, box, time, shared()), all.trees);
+    EXPECT_EQ(trees_round(world, box, shared()), blocks_round(world, box, shared()).trees);
     EXPECT_FALSE(present.dead.empty());
     EXPECT_EQ(present.dead, all.dead);
 }
