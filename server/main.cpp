@@ -15,9 +15,11 @@
 #include <string>
 #include <thread>
 
+#include "api/batch/version.h"
 #include "api/cache/directory_store.h"
 #include "api/service.h"
 #include "core/math/noise.h"
+#include "server/bake/bake.h"
 #include "server/http/transport.h"
 #include "server/operations/health.h"
 #include "server/operations/log.h"
@@ -220,10 +222,14 @@ api::ServiceOptions service_options_of(const Options& options, RepeatedWarning& 
     return result;
 }
 
+/// Returns how many files are made at once.
+std::size_t threads_of(const Options& options) {
+    return options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
+}
+
 RequestHandlerOptions request_handler_options_of(const Options& options) {
     RequestHandlerOptions result;
-    result.threads =
-        options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
+    result.threads = threads_of(options);
     result.metrics = options.metrics_port == 0;
     result.base_path = options.base_path.string();
     result.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
@@ -331,6 +337,24 @@ int serve(const Options& options, const Environment& environment) {
     return fine;
 }
 
+/// Does what `sporeprint bake ...` says; returns the exit code.
+int bake_set(const BakeCommand& command, const Options& options) {
+    blocked_signals();
+    Log log(options.log_level);
+    force_simd(options.simd);
+    const std::shared_ptr<const Atlas> atlas =
+        options.atlas.empty() ? built_in_atlas() : atlas_from(options.atlas.string());
+    RepeatedWarning unwritten(log, "finished files cannot be written to the store",
+                              std::chrono::minutes(1));
+    api::ServiceOptions service_options = service_options_of(options, unwritten, log);
+    // No file is made twice.
+    service_options.cache_bytes = 0;
+    service_options.store.clear();
+    api::Service service(atlas, service_options, library_of(options));
+    return static_cast<int>(
+        bake(command, service, api::version_of(*atlas), threads_of(options), is_stop_requested));
+}
+
 /// The values of --sign and related flags.
 struct SigningRequest {
     std::string target;
@@ -388,7 +412,33 @@ struct CommandLine {
     bool print_config = false;
     SigningRequest to_sign;
     LibraryCommand library;
+    BakeCommand bake;
 };
+
+/// Adds `bake MANIFEST`. It ends the program.
+void add_bake_command(CLI::App& app, BakeCommand& command) {
+    CLI::App* const bake = app.add_subcommand(
+        "bake", "Make the files that a manifest lists, in shards that can be begun again, and end");
+    // Options of the program, such as --threads and --atlas, may follow.
+    bake->fallthrough();
+    bake->add_option("MANIFEST", command.manifest,
+                     "A spec in JSON, or a list of path and query, one a line")
+        ->required();
+    bake->add_option("--out", command.out, "Folder of the shards; made if it is missing")
+        ->required()
+        ->type_name("DIR");
+    bake->add_option("--shard", command.shard,
+                     "Make only the shards k with k mod n = i, so that n processes make all")
+        ->type_name("I/N");
+    bake->add_option("--layout", command.layout,
+                     "tar: an archive for each shard; files: a file for each item")
+        ->type_name("LAYOUT");
+    bake->add_option("--progress", command.progress,
+                     "line, json (an object a second) or none, to standard error")
+        ->type_name("STYLE");
+    bake->add_flag("--finish", command.finish,
+                   "Check all shards, list what is missing, and write SHA256SUMS");
+}
 
 /// Adds `library owner add NAME` and related commands. They end the program.
 void add_library_commands(CLI::App& app, LibraryCommand& command) {
@@ -433,6 +483,7 @@ void add_flags(CLI::App& app, CommandLine& line) {
            "JSON file with any of these options, named like cache_mb (or SPOREPRINT_CONFIG)")
         ->type_name("FILE");
     add_library_commands(app, line.library);
+    add_bake_command(app, line.bake);
     app.add_flag("--print-config", line.print_config,
                  "Print all options as such a file, where they come to, and end");
     app.add_option("--health", line.health,
@@ -478,6 +529,7 @@ int perform(const CLI::App& app, const CommandLine& line, const Options& options
         return fine;
     }
     try {
+        if (!line.bake.manifest.empty()) return bake_set(line.bake, options);
         if (!line.library.verb.empty()) return administer_library(line.library, options);
         if (to_sign.target.empty() && (app.count("--sign-method") > 0 || !to_sign.body.empty()))
             return complain("--sign-method and --sign-body need --sign, the URL to sign",

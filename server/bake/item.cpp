@@ -1,0 +1,132 @@
+#include "server/bake/item.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "api/batch/labels.h"
+#include "api/http/encoding.h"
+#include "api/http/response_builder.h"
+#include "server/bake/aside_file.h"
+
+namespace sporeprint::server {
+
+namespace {
+
+constexpr std::size_t digits_of_keys = 9;
+
+/// Hexadecimal digits that tell apart files whose names would be equal.
+constexpr std::size_t digits_of_names = 8;
+
+constexpr int first_server_error = 500;
+
+std::string text_of(const Body& body) {
+    std::string text;
+    for (const Slice& slice : body)
+        text.append(reinterpret_cast<const char*>(slice.data()), slice.size);
+    return text;
+}
+
+Value problem_of(const api::Response& response) {
+    std::vector<Problem> malformed;
+    Value problem = parse(text_of(response.body), malformed);
+    // It is a number of the request, by which nobody can find anything here.
+    problem.erase("instance");
+    return malformed.empty() ? problem : Value(response.status);
+}
+
+/// Returns the name that a download of an item would have, made different from those of all other items.
+std::string file_name_of(const BakedItem& item, std::string_view disposition) {
+    constexpr std::string_view before = "filename=\"";
+    std::string stem;
+    const std::size_t at = disposition.find(before);
+    if (at != disposition.npos) {
+        stem = disposition.substr(at + before.size());
+        stem.erase(std::min(stem.find('"'), stem.size()));
+    } else {
+        const std::string_view path =
+            std::string_view(item.target).substr(0, item.target.find('?'));
+        stem = path.substr(path.rfind('/') + 1);
+    }
+    stem.erase(std::min(stem.rfind('.'), stem.size()));
+    for (char& c : stem)
+        if (c == '/' || c == '\\' || c == '%' || static_cast<unsigned char>(c) < ' ') c = '_';
+    return stem + "-" + api::digest_of(item.url).substr(0, digits_of_names) + "." +
+           extension_of(item);
+}
+
+}  // namespace
+
+BakedItem baked_item(api::Service& service, const api::BatchManifest& manifest,
+                     std::uint64_t number) {
+    const api::BatchItem planned = manifest.item(number);
+    BakedItem out;
+    out.number = number;
+    out.target = planned.target;
+    if (!planned.drawn.empty()) out.drawn = Value(planned.drawn);
+    api::Request request;
+    request.method = "GET";
+    request.target = planned.target;
+    const api::Response response = api::handle(service, request);
+    out.status = response.status;
+    if (response.status >= first_server_error)
+        throw std::runtime_error("item " + std::to_string(number) + " (" + planned.target +
+                                 ") could not be made: " + dump(problem_of(response)));
+    if (out.failed()) {
+        out.problem = problem_of(response);
+        return out;
+    }
+    out.body = response.body;
+    out.url = api::header_of(response, "Content-Location");
+    if (out.url.empty()) out.url = planned.target;
+    out.etag = api::header_of(response, "ETag");
+    out.type = api::header_of(response, "Content-Type");
+    out.encoding = api::header_of(response, "Content-Encoding");
+    Sha256 sha256;
+    for (const Slice& slice : out.body) sha256.add(slice.data(), slice.size);
+    out.sha256 = sha256.hex();
+    out.file = file_name_of(out, api::header_of(response, "Content-Disposition"));
+    if (manifest.has_labels()) out.labels = api::labels_of(out.body);
+    return out;
+}
+
+std::string key_of(std::uint64_t number) {
+    const std::string digits = std::to_string(number);
+    return std::string(digits_of_keys - std::min(digits_of_keys, digits.size()), '0') + digits;
+}
+
+std::string extension_of(const BakedItem& item) {
+    const std::string_view extension = api::extension_of(item.target);
+    return extension.empty() ? "bin" : std::string(extension);
+}
+
+std::string labels_text(const BakedItem& item) {
+    if (extension_of(item) == "json") return {};
+    Value labels = Value::object();
+    labels.set("url", Value(item.url)).set("etag", Value(item.etag));
+    if (!item.drawn.is_null()) labels.set("drawn", item.drawn);
+    if (!item.labels.is_null()) labels.set("labels", item.labels);
+    return dump(labels) + "\n";
+}
+
+std::string index_line(const BakedItem& item, Value::Member place) {
+    Value line = Value::object();
+    line.set("key", Value(key_of(item.number)));
+    if (item.failed()) {
+        line.set("target", Value(item.target)).set("status", Value(item.status));
+    } else {
+        line.set("url", Value(item.url))
+            .set("etag", Value(item.etag))
+            .set("type", Value(item.type));
+        if (!item.encoding.empty()) line.set("encoding", Value(item.encoding));
+        line.set("sha256", Value(item.sha256)).set("bytes", Value(size_of(item.body)));
+        line.set(place.first, std::move(place.second));
+    }
+    if (!item.drawn.is_null()) line.set("drawn", item.drawn);
+    if (!item.labels.is_null()) line.set("labels", item.labels);
+    if (item.failed()) line.set("problem", item.problem);
+    return dump(line);
+}
+
+}  // namespace sporeprint::server
