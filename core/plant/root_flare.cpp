@@ -61,17 +61,18 @@ class Flare {
     std::array<double, 3> phases_{};
 };
 
-/// Returns how often the skin is refined at a level of detail.
-int passes(int lod) { return std::max(0, 2 - lod); }
+/// Returns how often the skin is refined at a level of detail. Where trunks have few sides, the corners of their feet
+/// would be seen on the ground.
+int passes(int lod) { return lod == 0 ? 2 : 1; }
 
 }  // namespace
 
 TreeCount count_of_flare(const TreeShape& shape, int lod) {
     TreeCount count;
-    if (shape.root_flare <= 0.0 || passes(lod) == 0) return count;
+    if (shape.root_flare <= 0.0) return count;
     // Sides and rows below that height of the skin of bark_of(), where each pass makes four triangles
     // of one.
-    const double sides = lod == 0 ? 16.0 : 8.0, rows = lod == 0 ? 15.0 : 6.0;
+    const double sides = lod == 0 ? 16.0 : 8.0, rows = lod == 0 ? 15.0 : lod == 1 ? 6.0 : 4.0;
     const double parts = lod == 0 ? 16.0 : 4.0;
     count.triangles = 2.0 * sides * rows * (parts - 1.0);
     count.vertices = 0.55 * count.triangles;
@@ -105,7 +106,7 @@ void flare_roots(Bark& bark, const Tree& tree, double flare, std::uint32_t seed,
         });
         for (const auto& [a, b] : parents) bark.edges.push_back(bark.edges[a]);
     }
-    if (passes(lod) > 0) add_tangents(mesh);
+    add_tangents(mesh);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::dvec3 place(mesh.positions[i]);
         if (tree.ramification.nodes[bark.edges[i]].order != trunk ||

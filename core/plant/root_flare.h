@@ -11,7 +11,7 @@ namespace sporeprint {
 /// grows by a factor that falls to nothing within some radii of the trunk above the ground. Rays from
 /// the axis keep their order, so that no surface comes to cross itself; branches are not moved.
 ///
-/// At the finest levels the skin is refined there first, so that roots are round.
+/// The skin is refined there first, so that roots are round.
 ///
 /// bark   of the tree at this level; normals follow, tangents keep their direction
 /// flare  0 leaves it unchanged; at 1 the foot is about twice as wide as the trunk

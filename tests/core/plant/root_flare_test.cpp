@@ -65,12 +65,12 @@ TEST(RootFlare, WidensTheFootAndNothingElse) {
                 Grown after = before;
                 flare_roots(after.bark, after.tree, 1.0, seed, lod);
                 expect_valid(after.bark.mesh);
-                // Only the finest levels have more triangles, and no more than was counted.
+                // There are more triangles, and no more than was counted.
                 const std::size_t more = after.bark.mesh.triangles() - before.bark.mesh.triangles();
                 TreeShape shape = params_of(*atlas().find_tree(preset)).look.shape;
                 shape.root_flare = 1.0;
                 EXPECT_LE(static_cast<double>(more), count_of_flare(shape, lod).triangles);
-                EXPECT_EQ(more > 0, lod < 2);
+                EXPECT_GT(more, 0U);
                 EXPECT_EQ(after.bark.edges.size(), after.bark.mesh.positions.size());
                 EXPECT_GT(volume(after.bark.mesh), volume(before.bark.mesh));
                 const double low = 0.3 * before.radius;
