@@ -22,7 +22,7 @@ struct BatchItem {
 ///
 /// A list has one path and query per line; `#` begins a comment. A spec is a JSON object:
 ///
-///     path       path of the requests, with names in braces: "/v1/mushrooms/{mix}.glb". Names that are not in the path
+///     path       path of the requests, with names in braces: "/v1/things/{name}.glb". Names that are not in the path
 ///                become parameters of the query
 ///     count      number of items; with `each`, its combinations unless it is given
 ///     seed       of all draws, 0 to 4294967295; 1 by itself

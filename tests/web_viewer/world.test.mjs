@@ -63,7 +63,8 @@ test("a world is shown with its plot, its year, a map and the fruit bodies by na
     assert.ok((await page.locator(".curves .rain").getAttribute("d")).length > 500);
     const facts = await (await fetch(`${base}/v1/worlds/beech,seed=7/y80d270/plot.json?x=20&y=-5`)).json();
     assert.ok(facts.fruit_bodies.length > 0);
-    assert.equal(await page.locator("#found-count").textContent(), `${facts.fruit_bodies.length} fruit bodies on this plot`);
+    const found = facts.fruit_bodies.length;
+    assert.equal(await page.locator("#found-count").textContent(), `${found} fruit ${found === 1 ? "body" : "bodies"} on this plot`);
     const { species } = await (await fetch(`${base}/v1/worlds/beech,seed=7/season.json?year=80&bbox=0,-64,64,0`)).json();
     const counts = Object.fromEntries(species.map(({ id, standing }) => [id, standing[269]]));
     for (const row of await page.locator("#season-legend li").all())
@@ -179,7 +180,7 @@ test("a click on a mushroom shows its species and the address of its model", asy
     await page.locator("#body-card").waitFor();
     assert.match(await page.locator("#body-card b").textContent(), /^Cep$/);
     const model = await page.locator("#body-card code").textContent();
-    assert.match(model, /^\/v1\/mushrooms\/[a-z_]+\.glb\?seed=\d+&age=[\d.]+$/);
+    assert.match(model, /^\/v1\/mushrooms\/[a-z_]+\.glb\?seed=\d+&age=[\d.]+&substrate=none$/);
     assert.equal((await fetch(base + model, { method: "HEAD" })).status, 200);
     assert.equal(await page.locator("#body-link").getAttribute("href"), model.replace("/v1/mushrooms/", "./?species=").replace(".glb?", "&"));
     assertQuiet(log);

@@ -1,0 +1,383 @@
+// Replicas behind the edges of server/edge, as real processes: what clients see when replicas die, upgrade or are full.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { createHash } from "node:crypto";
+import { cpSync, mkdirSync, writeFileSync } from "node:fs";
+import http from "node:http";
+import path from "node:path";
+import { test } from "node:test";
+import * as fleet from "./support.mjs";
+
+const { ask, addressesOf, generation } = fleet;
+
+const variant = (k) =>
+    `/v1/mushrooms/${k % 2 ? "boletus_edulis" : "amanita_muscaria"}.glb?seed=${k + 1}&lod=3&texture_size=128`;
+
+test("configurations are valid, and what is wrong is named", (t) => {
+    const own = fleet.folder(t), keys = path.join(own, "keys");
+    writeFileSync(keys, "# first\nk1 00112233445566778899aabbccddeeff\n");
+    const one = ["--pool", "37=127.0.0.1:1,127.0.0.1:2"];
+    const two = [...one, "--pool", "38a=127.0.0.1:3", "--pool", "38b=127.0.0.1:4", "--today", "38a"];
+    const archive = ["--archive", "127.0.0.1:9/bucket", "--run", own, "--cache", path.join(own, "cache")];
+    const file = path.join(own, "conf");
+    for (const pools of [one, two]) {
+        fleet.configuredIn(file, "nginx", [...pools, ...archive]);
+        execFileSync("nginx", ["-t", "-q", "-c", file, "-e", "stderr"], { stdio: "pipe" });
+        fleet.configuredIn(file, "varnish", pools);
+        execFileSync("varnishd", ["-C", "-f", file], { stdio: "pipe" });
+        fleet.configuredIn(file, "haproxy", [...pools, "--keys", keys]);
+        execFileSync("haproxy", ["-c", "-q", "-f", file], { stdio: "pipe" });
+    }
+    const refuses = (args, what) => {
+        const { status, stderr } = spawnSync("server/edge/configure", args, { encoding: "utf8" });
+        assert.equal(status, 2, args.join(" "));
+        assert.match(stderr, what);
+    };
+    refuses([], /nginx, varnish and haproxy/);
+    refuses(["apache"], /not 'apache'/);
+    refuses(["nginx"], /--pool is missing/);
+    refuses(["nginx", "--pool", "x=1"], /'x=1' is not allowed/);
+    refuses(["nginx", "--pool", "37=host"], /'host' is not HOST:PORT/);
+    refuses(["nginx", "--pool", "37=a:1;b"], /is not HOST:PORT/);
+    refuses(["nginx", ...one, "--today", "36"], /there is no pool '36'/);
+    refuses(["nginx", ...one, "--listen", "80"], /'80' is not HOST:PORT/);
+    refuses(["nginx", ...one, "--cache-gb", "0"], /'0' is not a positive integer/);
+    refuses(["nginx", ...one, "--archive", "host:1"], /'host:1' is not HOST:PORT\/BUCKET/);
+    refuses(["nginx", ...one, "--speed", "1"], /there is no --speed/);
+    refuses(["nginx", "--pool"], /--pool needs a value/);
+    refuses(["haproxy", ...one, "--keys", "/nowhere"], /cannot be read|has no line/);
+});
+
+test("behind nginx a replica dies twice, and every response is 200", async (t) => {
+    const replicas = await Promise.all([1, 2, 3].map(() => fleet.replica(t, ["--threads", "1"])));
+    const edge = await fleet.nginx(t, ["--pool", `${generation}=${addressesOf(replicas)}`]);
+    const agent = new http.Agent({ keepAlive: true, maxSockets: 12 });
+    t.after(() => agent.destroy());
+    const draw = fleet.draws(1), pick = fleet.zipf(400, 0.9, draw);
+    const seen = new Set(), wrong = [];
+    let lost = 0, slowest = 0;
+    await fleet.together(2000, 12, async (i) => {
+        if (i === 600 || i === 1300) {
+            // The last count of one that is killed, which a new one begins at 0.
+            lost += await fleet.made(replicas[1].port);
+            await fleet.stop(replicas[1], "SIGKILL");
+            replicas[1] = await fleet.replica(t, ["--threads", "1"], replicas[1].port);
+        }
+        const k = pick();
+        seen.add(k);
+        const { status, body, ms } = await ask(edge.port, variant(k), { agent });
+        slowest = Math.max(slowest, ms);
+        if (status !== 200 || body.subarray(0, 4).toString() !== "glTF") wrong.push(`${status} ${variant(k)}`);
+    });
+    assert.deepEqual(wrong, []);
+    let made = lost;
+    for (const one of replicas) made += await fleet.made(one.port);
+    t.diagnostic(`${made} made of ${seen.size} distinct, slowest ${slowest.toFixed(0)} ms`);
+    // Each of four replicas and more has made a file for its test of itself.
+    assert.ok(made - 5 <= 1.3 * seen.size, `${made} made of ${seen.size} distinct`);
+    const again = await ask(edge.port, variant(0), { agent });
+    assert.match(again.headers["cache-status"], /^edge; detail=HIT/);
+    assert.equal((await ask(edge.port, "/metrics")).status, 404);
+    const range = await ask(edge.port, variant(0), { headers: { Range: "bytes=0-3" } });
+    assert.equal(range.status, 206);
+    assert.equal(range.body.toString(), "glTF");
+    const same = await ask(edge.port, variant(0), { headers: { "If-None-Match": again.headers.etag } });
+    assert.equal(same.status, 304);
+});
+
+/** Returns a folder of templates that differ in one number. */
+function otherTemplates(t) {
+    const own = fleet.folder(t);
+    for (const [kind, from] of [["species", "species"], ["leaves", "leaves"], ["trees", "trees"], ["worlds", "worlds"]]) {
+        mkdirSync(path.join(own, kind));
+        cpSync(`core/atlas/${from}`, path.join(own, kind), { recursive: true });
+    }
+    const file = path.join(own, "species/boletus_edulis.json");
+    const species = JSON.parse(fleet.textOf(file));
+    species.spread.lightness += 0.01;
+    writeFileSync(file, JSON.stringify(species));
+    return own;
+}
+
+/** Returns a folder with one species. */
+function oneSpecies(t) {
+    const own = fleet.folder(t);
+    mkdirSync(path.join(own, "species"));
+    cpSync("core/atlas/species/boletus_edulis.json", path.join(own, "species/boletus_edulis.json"));
+    return own;
+}
+
+/** The addresses of the images that a file links to. */
+function linksOf(body, target) {
+    const length = body.readUInt32LE(12);
+    const file = JSON.parse(body.subarray(20, 20 + length).toString());
+    return file.images.map(({ uri }) => {
+        const { pathname, search } = new URL(uri, `http://host${target}`);
+        return pathname + search;
+    });
+}
+
+for (const kind of ["nginx", "varnish"])
+    test(`an upgrade behind ${kind}, and back, loses no image of a file`, async (t) => {
+        const before = await fleet.replica(t), after = await fleet.replica(t, ["--atlas", otherTemplates(t)]);
+        const pools = ["--pool", `${generation}a=127.0.0.1:${before.port}`, "--pool", `${generation}b=127.0.0.1:${after.port}`];
+        const address = (k) => `/v1/mushrooms/boletus_edulis.glb?seed=${k}&lod=3&texture_size=128&textures=linked&age=0.${10 + k}`;
+        const own = new Map();
+        for (const one of [before, after]) {
+            const { headers } = await ask(one.port, address(1));
+            own.set(one, headers["content-location"].match(/v=([^&]+)/)[1]);
+        }
+        assert.notEqual(own.get(before), own.get(after), "The templates are the same.");
+        let edge = await fleet[kind](t, [...pools, "--today", `${generation}a`]);
+        const counts = {};
+        const links = [], versions = [];
+        const use = async (first) => {
+            for (let k = first; k < first + 12; ++k) {
+                const file = await ask(edge.port, address(k));
+                assert.equal(file.status, 200);
+                versions.push(file.headers["content-location"].match(/v=([^&]+)/)[1]);
+                links.push(...linksOf(file.body, address(k)));
+            }
+            for (const link of links) {
+                const { status } = await ask(edge.port, link);
+                counts[status] = (counts[status] ?? 0) + 1;
+            }
+        };
+        const switchTo = async (today) => {
+            const options = [...pools, "--today", today];
+            if (kind === "nginx") return edge.reload(options);
+            await fleet.stop(edge);
+            edge = await fleet.varnish(t, options);
+        };
+        await use(1);
+        await switchTo(`${generation}b`);
+        await use(1);
+        await switchTo(`${generation}a`);
+        await use(20);
+        assert.equal(links.length, 3 * 36);
+        assert.ok(new Set(links).size > 36, "All files have the same images.");
+        assert.deepEqual(Object.keys(counts), ["200"]);
+        assert.deepEqual(
+            [...versions],
+            [before, after, before].flatMap((one) => Array(12).fill(own.get(one))),
+        );
+        // What nobody has stays gone, with the name that it has today.
+        const gone = await ask(edge.port, `${address(1)}&v=${generation}-00000000`);
+        assert.equal(gone.status, 410);
+        assert.match(JSON.parse(gone.body).canonical, new RegExp(`v=${generation}-`));
+    });
+
+test("the most frequent addresses are compared before an upgrade", async (t) => {
+    const own = fleet.folder(t), log = path.join(own, "log"), list = path.join(own, "list");
+    const before = await fleet.replica(t), after = await fleet.replica(t, ["--atlas", otherTemplates(t)]);
+    const edge = await fleet.nginx(t, ["--pool", `${generation}=127.0.0.1:${before.port}`, "--log", log]);
+    const cep = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none", agaric = cep.replace("boletus_edulis", "amanita_muscaria");
+    const pinned = (await ask(edge.port, agaric)).headers["content-location"];
+    assert.match(pinned, /&v=/);
+    for (const [target, times] of [[cep, 3], [agaric, 4], [pinned, 2], [`${cep}&age=7`, 5], ["/v1", 9], ["/v1/worlds/beech,seed=7/y0/maps/height.json?size=65", 1]])
+        for (let i = 0; i < times; ++i) await ask(edge.port, target);
+    await fleet.sleep(1300);
+    const asked = execFileSync("server/edge/most_asked", [log, "3"], { encoding: "utf8" });
+    assert.equal(asked, `${agaric}\n${cep}\n/v1/worlds/beech,seed=7/y0/maps/height.json?size=65\n`);
+    writeFileSync(list, asked);
+    const url = (one) => `http://127.0.0.1:${one.port}`;
+    const canary = (a, b, ...more) => spawnSync("server/edge/canary", [url(a), url(b), list, ...more], { encoding: "utf8" });
+    const same = canary(before, before);
+    assert.equal(same.status, 0, same.stderr);
+    assert.equal(same.stdout, "2 compared, 0 different\n");
+    writeFileSync(list, `${asked}/v1/mushrooms/boletus_edulis.glb?lod=3&age=8\n`);
+    assert.equal(canary(before, before).status, 0, "What neither can make is equal.");
+    const gone = await fleet.replica(t, ["--atlas", oneSpecies(t)]);
+    const changed = canary(before, gone);
+    assert.equal(changed.status, 1);
+    assert.match(changed.stdout, /amanita_muscaria.*: 404 instead of 200/);
+    assert.match(changed.stdout, /3 compared, 1 different/);
+    assert.equal(canary(before, after, "0").stdout.split("\n").at(-2), "3 compared, 0 different", "Colours are not told.");
+    assert.equal(canary(before, after, "x").status, 2);
+});
+
+test("what a retired version left is served from an archive", async (t) => {
+    // An object store, as far as rclone and nginx use it.
+    const objects = new Map();
+    const store = http.createServer((request, response) => {
+        const key = decodeURIComponent(request.url.split("?")[0]);
+        if (request.method === "PUT") {
+            const parts = [];
+            request.on("data", (part) => parts.push(part));
+            request.on("end", () => {
+                const body = Buffer.concat(parts);
+                objects.set(key, { body, headers: request.headers });
+                response.writeHead(200, { ETag: `"${createHash("md5").update(body).digest("hex")}"` });
+                response.end();
+            });
+            return;
+        }
+        const found = objects.get(key);
+        if (!found) return response.writeHead(404).end();
+        const { body, headers } = found;
+        response.writeHead(200, {
+            "Content-Type": headers["content-type"], "Content-Length": body.length, "x-amz-meta-etag": headers["x-amz-meta-etag"],
+            ETag: `"${createHash("md5").update(body).digest("hex")}"`, "Last-Modified": new Date().toUTCString(),
+        });
+        response.end(request.method === "HEAD" ? undefined : body);
+    });
+    await new Promise((resolve) => store.listen(0, "127.0.0.1", resolve));
+    t.after(() => store.close());
+    t.after(() => store.closeAllConnections());
+    const own = fleet.folder(t), manifest = path.join(own, "list"), out = path.join(own, "set");
+    const targets = [1, 2, 3].map((k) => `/v1/mushrooms/boletus_edulis:0.5,amanita_muscaria:0.5.glb?seed=${k}&lod=3&texture_size=128`);
+    writeFileSync(manifest, `${targets.join("\n")}\n/v1/mushrooms/none.glb\n`);
+    const retired = ["--atlas", otherTemplates(t)];
+    const bake = (...more) => execFileSync(fleet.binary, ["bake", manifest, "--out", out, ...more, ...retired], { stdio: "pipe" });
+    bake();
+    const environment = {
+        ...Object.fromEntries(Object.entries(process.env).filter(([name]) => !name.startsWith("AWS_"))),
+        RCLONE_CONFIG: path.join(own, "rclone.conf"), RCLONE_CONFIG_S_TYPE: "s3", RCLONE_CONFIG_S_PROVIDER: "Other",
+        RCLONE_CONFIG_S_ACCESS_KEY_ID: "id", RCLONE_CONFIG_S_SECRET_ACCESS_KEY: "secret",
+        RCLONE_CONFIG_S_ENDPOINT: `http://127.0.0.1:${store.address().port}`, RCLONE_CONFIG_S_FORCE_PATH_STYLE: "true",
+    };
+    const archive = () => fleet.ended("server/edge/archive", [out, "s:bucket"], environment);
+    assert.equal((await archive()).status, 2, "It is not finished.");
+    bake("--finish");
+    const done = await archive();
+    assert.equal(done.status, 0, done.output);
+    assert.equal(objects.size, 3);
+    const today = await fleet.replica(t);
+    const edge = await fleet.nginx(t, [
+        ...["--pool", `${generation}=127.0.0.1:${today.port}`, "--archive", `127.0.0.1:${store.address().port}/bucket`],
+    ]);
+    for (const line of fleet.textOf(path.join(out, "000000.jsonl")).trim().split("\n").slice(1)) {
+        const { url, etag, sha256 } = JSON.parse(line);
+        if (!url) continue;
+        assert.equal((await ask(today.port, url)).status, 410, url);
+        const kept = await ask(edge.port, url);
+        assert.equal(kept.status, 200, url);
+        assert.equal(kept.headers.etag, etag);
+        assert.equal(kept.headers["content-type"], "model/gltf-binary");
+        assert.match(kept.headers["cache-control"], /immutable/);
+        assert.equal(createHash("sha256").update(kept.body).digest("hex"), sha256);
+    }
+    const gone = await ask(edge.port, `${targets[0]}&v=${generation}-00000000`);
+    assert.equal(gone.status, 410);
+    assert.match(JSON.parse(gone.body).canonical, /v=/);
+});
+
+test("Varnish shares spellings, retries a full replica and answers ranges", async (t) => {
+    const requests = [];
+    let full = 2;
+    const fake = (name) =>
+        new Promise((resolve) => {
+            const server = http.createServer((request, response) => {
+                if (request.url === "/readyz") return response.end();
+                requests.push(`${name} ${request.method} ${request.url}`);
+                if (request.url.startsWith("/full") && full-- > 0) {
+                    response.writeHead(503);
+                    return response.end("full");
+                }
+                response.writeHead(200, { ETag: '"tag"', "Cache-Control": "public, max-age=3600", "Server-Timing": "build;dur=9", "X-Request-Id": "first" });
+                response.end("0123456789");
+            });
+            server.listen(0, "127.0.0.1", () => resolve(server));
+            t.after(() => server.close());
+            t.after(() => server.closeAllConnections());
+        });
+    const servers = [await fake("a"), await fake("b"), await fake("c")];
+    const pool = servers.map((one) => `127.0.0.1:${one.address().port}`).join(",");
+    const edge = await fleet.varnish(t, ["--pool", `${generation}=${pool}`]);
+    requests.length = 0;
+    const first = await ask(edge.port, "/v1/x.glb?b=2&a=1");
+    assert.equal(first.headers["server-timing"], "build;dur=9");
+    const second = await ask(edge.port, "/v1/x.glb?a=1&b=2");
+    assert.equal(requests.length, 1, "One object for both spellings.");
+    assert.match(requests[0], /b=2&a=1$/, "It is sent on as it came.");
+    assert.equal(second.headers["cache-status"], "edge; hit");
+    assert.equal(second.headers["server-timing"], undefined);
+    assert.notEqual(second.headers["x-request-id"], "first");
+    assert.equal((await ask(edge.port, "/v1/x.glb?a=1&b=2", { headers: { Range: "bytes=2-4" } })).body.toString(), "234");
+    assert.equal((await ask(edge.port, "/v1/x.glb?a=1&b=2", { headers: { "If-None-Match": '"tag"' } })).status, 304);
+    requests.length = 0;
+    assert.equal((await ask(edge.port, "/full.glb")).status, 200);
+    assert.equal(new Set(requests.map((one) => one[0])).size, 3, requests.join("; "));
+    requests.length = 0;
+    for (let i = 0; i < 30; ++i) assert.equal((await ask(edge.port, "/v1/y", { method: "POST" })).status, 200);
+    for (const name of "abc") assert.equal(requests.filter((one) => one.startsWith(name)).length, 10);
+});
+
+test("replicas of other threads and instructions send the same bytes", async (t) => {
+    const replicas = await Promise.all(
+        [["--threads", "1", "--simd", "scalar"], ["--threads", "2"], ["--threads", "2", "--simd", "sse4"]].map((options) =>
+            fleet.replica(t, options),
+        ),
+    );
+    for (const target of [
+        "/v1/mushrooms/russula_emetica.glb?lod=1&seed=4&texture_size=256",
+        "/v1/colonies/hypholoma_fasciculare.glb?count=7&lod=2&texture_size=128",
+        "/v1/trees/birch.glb?lod=2&texture_size=128",
+        "/v1/leaves/maple.glb?texture_size=128",
+        "/v1/worlds/meadow,seed=3/y0/maps/height.png?size=129",
+    ]) {
+        const hashes = new Set(), tags = new Set();
+        for (const one of replicas) {
+            const { status, body, headers } = await ask(one.port, target);
+            assert.equal(status, 200, target);
+            hashes.add(createHash("sha256").update(body).digest("hex"));
+            tags.add(headers.etag);
+        }
+        assert.equal(hashes.size, 1, target);
+        assert.equal(tags.size, 1, target);
+    }
+});
+
+test("HAProxy and a replica agree about signed addresses", async (t) => {
+    const keys = path.join(fleet.folder(t), "keys");
+    writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
+    const open = await fleet.replica(t), closed = await fleet.replica(t, ["--sign-keys", keys]);
+    const edge = await fleet.haproxy(t, ["--pool", `${generation}=127.0.0.1:${open.port}`, "--keys", keys]);
+    const signed = (target, ...more) =>
+        execFileSync(fleet.binary, ["--sign-keys", keys, "--sign", target, ...more], { encoding: "utf8" }).trim();
+    const plain = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none", bare = "/v1/mushrooms/boletus_edulis.glb";
+    const good = signed(plain), soon = signed(plain, "--sign-for", "20"), brief = signed(plain, "--sign-for", "1");
+    await fleet.sleep(2100);
+    const cases = [
+        [good, 200],
+        [signed(bare), 200],
+        [soon, 200],
+        [brief, 403],
+        [plain, 403],
+        [good.replace(/sig=./, "sig=-"), 403],
+        [good.replace("lod=3", "lod=2"), 403],
+        [soon.replace(/expires=\d/, "expires=9"), 403],
+        ["/v1/mushrooms/schema", 200],
+    ];
+    for (const [target, status] of cases) {
+        const by = { edge: await ask(edge.port, target), replica: await ask(closed.port, target) };
+        assert.equal(by.edge.status, status, `edge: ${target}`);
+        assert.equal(by.replica.status, status, `replica: ${target}`);
+        if (status === 200) assert.deepEqual(by.edge.body, by.replica.body);
+        if (target !== soon) continue;
+        for (const { headers } of [by.edge, by.replica]) {
+            const left = Number(headers["cache-control"].match(/max-age=(\d+)/)[1]);
+            assert.ok(left > 0 && left <= 18, headers["cache-control"]);
+            assert.doesNotMatch(headers["cache-control"], /stale-while-revalidate/);
+        }
+    }
+});
+
+test("behind nginx each client has its budget, and a forged address changes nothing", async (t) => {
+    const one = await fleet.replica(t, [
+        ...["--client-work", "1", "--client-burst", "15", "--trusted-proxies", "127.0.0.1"],
+    ]);
+    const edge = await fleet.nginx(t, ["--pool", `${generation}=127.0.0.1:${one.port}`]);
+    const statuses = async (local, headers = {}) => {
+        const out = [];
+        for (let k = 0; k < 12; ++k)
+            out.push((await ask(edge.port, `/v1/mushrooms/boletus_edulis.glb?lod=2&texture_size=256&seed=${k}&age=0.${local.at(-1)}${headers.extra ?? 1}`, { local, headers })).status);
+        return out;
+    };
+    const first = await statuses("127.0.0.2");
+    assert.ok(first.includes(200) && first.at(-1) === 429, first.join());
+    const second = await statuses("127.0.0.3");
+    assert.equal(second[0], 200, "The second client has a budget of its own.");
+    const forged = await statuses("127.0.0.2", { "X-Forwarded-For": "127.0.0.9", extra: 2 });
+    assert.deepEqual(new Set(forged), new Set([429]));
+});
