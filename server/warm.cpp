@@ -5,23 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "api/http/response_text.h"
 #include "server/operations/text_files.h"
 
 namespace sporeprint::server {
-
-namespace {
-
-/// Returns the problem of a response as a client would receive it.
-Value problem_of(const api::Response& response) {
-    std::string text;
-    for (const Slice& slice : response.body)
-        text.append(reinterpret_cast<const char*>(slice.data()), slice.size);
-    std::vector<Problem> malformed;
-    Value problem = parse(text, malformed);
-    return malformed.empty() ? problem : Value(response.status);
-}
-
-}  // namespace
 
 std::size_t warm(const std::filesystem::path& file, std::string_view text,
                  RequestHandler& request_handler, Log& log, const std::function<bool()>& stop) {
@@ -41,7 +28,7 @@ std::size_t warm(const std::filesystem::path& file, std::string_view text,
                           {{"file", Value(file.string())},
                            {"line", Value(list[at + i].number)},
                            {"target", Value(redacted(list[at + i].text))},
-                           {"problem", problem_of(responses[i])}});
+                           {"problem", api::problem_of(responses[i])}});
         }
         at = end;
     }

@@ -75,7 +75,7 @@ std::optional<std::vector<std::string>> names_in(std::string_view path) {
 
 }  // namespace
 
-std::string percent_encoded(std::string_view text) {
+std::string escaped_in_address(std::string_view text) {
     constexpr std::string_view hex = "0123456789ABCDEF", plain = "-._~!$'()*,;:@=";
     std::string out;
     for (const char c : text) {
@@ -308,10 +308,11 @@ BatchItem BatchManifest::item(std::uint64_t number) const {
     for (std::size_t i = 0; i < rules_.size(); ++i) {
         const Named& named = rules_[i];
         Value value = value_of(named, number, combination[i]);
-        const std::string text = percent_encoded(text_of(value)), braced = "{" + named.name + "}";
+        const std::string text = escaped_in_address(text_of(value)),
+                          braced = "{" + named.name + "}";
         const std::size_t at = path.find(braced);
         if (at == path.npos)
-            query += (query.empty() ? "?" : "&") + percent_encoded(named.name) + "=" + text;
+            query += (query.empty() ? "?" : "&") + escaped_in_address(named.name) + "=" + text;
         else
             for (std::size_t k = at; k != path.npos; k = path.find(braced, k + text.size()))
                 path.replace(k, braced.size(), text);

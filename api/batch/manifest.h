@@ -97,8 +97,8 @@ class BatchManifest {
         rules_;  ///< those of `each` in their order, what is fixed before them, all else behind
 };
 
-/// Returns a text with everything escaped that may stand neither in a path nor in a query, and what separates their
+/// Returns a text with everything percent-encoded that may stand neither in a path nor in a query, and what separates their
 /// parts.
-[[nodiscard]] std::string percent_encoded(std::string_view text);
+[[nodiscard]] std::string escaped_in_address(std::string_view text);
 
 }  // namespace sporeprint::api

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/cache/write_all.h"
 #include "api/http/encoding.h"
 #include "api/http/random.h"
 #include "core/problems.h"
@@ -50,18 +51,6 @@ std::optional<Slice> body_in(const std::shared_ptr<const Bytes>& file, std::stri
 }
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
-
-std::error_code write_all(int file, const void* data, std::size_t size) {
-    const char* at = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t written = ::write(file, at, size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return last_error();
-        at += written;
-        size -= static_cast<std::size_t>(written);
-    }
-    return {};
-}
 
 /// Writes a file that consists of a head and a body. Returns the error if it cannot be written
 /// completely.

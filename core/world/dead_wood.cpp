@@ -12,6 +12,7 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/world/patches.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
@@ -184,10 +185,9 @@ class Obstacles {
     /// No trunk with its roots is wider, metres.
     static constexpr double widest = 1.5;
 
-    static std::int32_t cell_of(std::int32_t at) {
-        return at >= 0 ? at / cell_units : -((cell_units - 1 - at) / cell_units);
+    static CellIndex cell_of(WorldPoint at) {
+        return {floor_div(at.x, cell_units), floor_div(at.y, cell_units)};
     }
-    static CellIndex cell_of(WorldPoint at) { return {cell_of(at.x), cell_of(at.y)}; }
 
     template <class Record, class Use>
     static void for_each_near(const Cells<Record>& cells, WorldPoint at, double within,

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <stdexcept>
@@ -13,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "api/cache/write_all.h"
 #include "api/http/random.h"
+#include "api/library/tokens.h"
 
 namespace sporeprint::server {
 
@@ -42,17 +43,10 @@ void Sha256::add(const void* data, std::size_t size) {
 }
 
 std::string Sha256::hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned size = 0;
-    if (EVP_DigestFinal_ex(context_.get(), digest.data(), &size) != 1)
+    api::Digest digest{};
+    if (EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) != 1)
         throw std::runtime_error("libcrypto has no SHA-256");
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string text;
-    for (unsigned i = 0; i < size; ++i) {
-        text += digits[digest[i] >> 4U];
-        text += digits[digest[i] & 15U];
-    }
-    return text;
+    return api::hex_of(digest);
 }
 
 FileDigest digest_of_file(const fs::path& path) {
@@ -106,14 +100,8 @@ void AsideFile::fail(const char* what) const { fail_with(path_, what, errno); }
 void AsideFile::write(const void* data, std::size_t size) {
     sha256_.add(data, size);
     bytes_ += size;
-    const char* at = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t written = ::write(file_, at, size);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail("cannot be written");
-        at += written;
-        size -= static_cast<std::size_t>(written);
-    }
+    if (const std::error_code error = api::write_all(file_, data, size))
+        fail_with(path_, "cannot be written", error.value());
 }
 
 void AsideFile::synchronize() {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/http/response_text.h"
 #include "server/bake/aside_file.h"
 #include "server/bake/item_stream.h"
 #include "server/bake/shard.h"
@@ -95,9 +96,7 @@ void look_at_first(api::Service& service, const api::BatchManifest& manifest) {
         const auto* const response = std::get_if<api::Response>(&plan);
         if (response == nullptr || response->status < 400) return;
         if (!problem.empty()) continue;
-        problem = "nothing can be made of " + request.target + ": ";
-        for (const Slice& slice : response->body)
-            problem.append(reinterpret_cast<const char*>(slice.data()), slice.size);
+        problem = "nothing can be made of " + request.target + ": " + api::text_of(response->body);
     }
     throw Ended{BakeEnd::wrong_usage, problem};
 }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "api/batch/labels.h"
 #include "api/http/encoding.h"
 #include "api/http/response_builder.h"
+#include "api/http/response_text.h"
 #include "server/bake/aside_file.h"
 
 namespace sporeprint::server {
@@ -21,19 +21,11 @@ constexpr std::size_t digits_of_names = 8;
 
 constexpr int first_server_error = 500;
 
-std::string text_of(const Body& body) {
-    std::string text;
-    for (const Slice& slice : body)
-        text.append(reinterpret_cast<const char*>(slice.data()), slice.size);
-    return text;
-}
-
-Value problem_of(const api::Response& response) {
-    std::vector<Problem> malformed;
-    Value problem = parse(text_of(response.body), malformed);
-    // It is a number of the request, by which nobody can find anything here.
+/// Returns the problem of a response without the number of its request, by which nobody can find anything here.
+Value lasting_problem_of(const api::Response& response) {
+    Value problem = api::problem_of(response);
     problem.erase("instance");
-    return malformed.empty() ? problem : Value(response.status);
+    return problem;
 }
 
 /// Returns the name that a download of an item would have, made different from those of all other items.
@@ -72,9 +64,9 @@ BakedItem baked_item(api::Service& service, const api::BatchManifest& manifest,
     out.status = response.status;
     if (response.status >= first_server_error)
         throw std::runtime_error("item " + std::to_string(number) + " (" + planned.target +
-                                 ") could not be made: " + dump(problem_of(response)));
+                                 ") could not be made: " + dump(lasting_problem_of(response)));
     if (out.failed()) {
-        out.problem = problem_of(response);
+        out.problem = lasting_problem_of(response);
         return out;
     }
     out.body = response.body;
@@ -91,10 +83,12 @@ BakedItem baked_item(api::Service& service, const api::BatchManifest& manifest,
     return out;
 }
 
-std::string key_of(std::uint64_t number) {
+std::string padded(std::uint64_t number, std::size_t least) {
     const std::string digits = std::to_string(number);
-    return std::string(digits_of_keys - std::min(digits_of_keys, digits.size()), '0') + digits;
+    return std::string(least - std::min(least, digits.size()), '0') + digits;
 }
+
+std::string key_of(std::uint64_t number) { return padded(number, digits_of_keys); }
 
 std::string extension_of(const BakedItem& item) {
     const std::string_view extension = api::extension_of(item.target);

@@ -1,6 +1,7 @@
 // One file that is made in advance, and what is written of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -35,6 +36,9 @@ struct BakedItem {
 /// throws  std::runtime_error if it is not the request that is to blame
 [[nodiscard]] BakedItem baked_item(api::Service& service, const api::BatchManifest& manifest,
                                    std::uint64_t number);
+
+/// Returns a number with leading zeros, of at least so many digits.
+[[nodiscard]] std::string padded(std::uint64_t number, std::size_t least);
 
 /// Returns the key of an item: its number with leading zeros.
 [[nodiscard]] std::string key_of(std::uint64_t number);

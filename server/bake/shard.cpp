@@ -37,9 +37,7 @@ std::optional<Value> value_of(const std::string& line) {
 }  // namespace
 
 std::string BakeSet::name_of(std::uint64_t shard, const char* extension) {
-    const std::string digits = std::to_string(shard);
-    return std::string(digits_of_shards - std::min(digits_of_shards, digits.size()), '0') + digits +
-           "." + extension;
+    return padded(shard, digits_of_shards) + "." + extension;
 }
 
 std::optional<ShardHead> head_of(const BakeSet& set, std::uint64_t shard) {

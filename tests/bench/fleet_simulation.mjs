@@ -92,7 +92,7 @@ export class Cache {
 }
 
 /** A generator of numbers that is the same in every run. */
-function draws(state) {
+export function draws(state) {
     return () => {
         state = (state + 0x6d2b79f5) | 0;
         let x = Math.imul(state ^ (state >>> 15), 1 | state);
@@ -102,7 +102,7 @@ function draws(state) {
 }
 
 /** Returns a function that draws numbers below `count` by Zipf's law, from tables of 2048 equally frequent parts. */
-function zipf(count, exponent, draw) {
+export function zipf(count, exponent, draw) {
     const sums = new Float64Array(count);
     let sum = 0;
     for (let k = 0; k < count; ++k) sums[k] = sum += (k + 1) ** -exponent;

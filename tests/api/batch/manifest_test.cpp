@@ -80,7 +80,7 @@ TEST(BatchManifest, EscapesValuesAndFillsNamesInPaths) {
             "fixed":{"world":"beech,seed=7","year":80,"day":12.5,"name":"ä &/?%{x}","flag":true}})");
     EXPECT_EQ(manifest.item(0).target,
               "/v1/beech,seed=7/y80d12.5/80.png?name=%C3%A4%20%26%2F%3F%25%7Bx%7D&flag=true");
-    EXPECT_EQ(percent_encoded("a~b-c_d.e:f@g,h=i+j#"), "a~b-c_d.e:f@g,h=i%2Bj%23");
+    EXPECT_EQ(escaped_in_address("a~b-c_d.e:f@g,h=i+j#"), "a~b-c_d.e:f@g,h=i%2Bj%23");
 }
 
 TEST(BatchManifest, DrawsByTheNumberOfTheItemAndTheNameAlone) {
