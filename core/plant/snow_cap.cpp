@@ -33,8 +33,14 @@ constexpr float hump = 0.35F, gap = 0.8F;
 
 constexpr glm::vec3 white{0.84F, 0.87F, 0.92F};
 
+/// How far the broken ends of a trunk may be from where it ends, in radii.
+constexpr double broken = 0.95;
+
 /// Returns how much of the depth lies at each row, by humps and gaps; below 0 there is none.
-std::vector<double> depths(const SnowCapParams& params, const std::vector<double>& at) {
+///
+/// foot, top  radii of the ends, metres
+std::vector<double> depths(const SnowCapParams& params, const std::vector<double>& at, double foot,
+                           double top) {
     Random random(params.seed, purposes::trunk_ends, 2);
     const std::uint32_t of_humps = random.bits(), of_gaps = random.bits();
     std::vector<float> u, v(at.size(), 0.37F), humps(at.size()), gaps(at.size());
@@ -45,8 +51,8 @@ std::vector<double> depths(const SnowCapParams& params, const std::vector<double
     std::vector<double> depths(at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
         // Towards its ends there is less.
-        const double end = std::min(at[i], params.length - at[i]);
-        const double tapered = smooth_step(-0.02, 0.18, end);
+        const double end = std::min(at[i] - broken * foot, params.length - at[i] - broken * top);
+        const double tapered = smooth_step(0.0, 0.2, end);
         const double lies =
             smooth_step(-0.2, 0.2, 2.0 * params.cover - 1.0 + 0.8 * static_cast<double>(gaps[i]));
         depths[i] = tapered * lies * (0.85 + 0.5 * static_cast<double>(humps[i])) *
@@ -123,10 +129,11 @@ Mesh snow_cap(const SnowCapParams& params, const std::function<TrunkSection(doub
     std::vector<double> at;
     for (std::size_t row = 0; row < rows; ++row)
         at.push_back(params.length * static_cast<double>(row) / static_cast<double>(rows - 1));
-    const std::vector<double> share = depths(params, at);
     std::vector<TrunkSection> sections;
     sections.reserve(rows);
     for (const double s : at) sections.push_back(section(s));
+    const std::vector<double> share =
+        depths(params, at, sections.front().radius, sections.back().radius);
     SnowGrid grid{columns, {}, {}};
     std::vector<bool> lies(rows);
     for (std::size_t row = 0; row < rows; ++row) {

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -37,11 +38,11 @@ constexpr double trunk_share = 0.9, foot = 1.15;
 constexpr int most_falls = 16;
 constexpr double clearance = 0.1, roots = 1.3;
 
-/// What it costs to fall on a living tree, and across a trunk.
-constexpr double cost_of_tree = 4.0, cost_of_trunk = 1.0;
+/// Share of the time that a trunk lies after which others may lie across it: it is flat.
+constexpr double flat = 0.6;
 
-/// Share of the time that a trunk lies after which others do not lie across it: it is flat.
-constexpr double flat = 0.5;
+/// A trunk that cannot fall beside everything breaks so far before what it falls on, and leaves at least so much, metres.
+constexpr double gap = 0.15, shortest = 1.0;
 
 /// A trunk that is dead or will be, and what decides on its direction before its surroundings do.
 struct Fall {
@@ -61,6 +62,7 @@ std::optional<Fall> fall_of(const Stand& stand, const StandTree& tree, const Fal
     const TreeEcology& ecology = stand.kinds[tree.kind].ecology;
     const double height = height_at(tree, tree.died), diameter = trunk_diameter(height);
     if (diameter < thinnest_log) return std::nullopt;
+    const double lasts = lasting(foot * diameter);
     Fall out{{},
              false,
              0.0,
@@ -81,8 +83,8 @@ std::optional<Fall> fall_of(const Stand& stand, const StandTree& tree, const Fal
     wood.at = tree.at;
     wood.kind = tree.kind;
     wood.died = tree.died;
-    wood.gone =
-        tree.died + static_cast<WorldTime>(years_of_decay(stand.params, ecology) * ticks_of_year);
+    wood.gone = tree.died + static_cast<WorldTime>(lasts * years_of_decay(stand.params, ecology) *
+                                                   ticks_of_year);
     wood.fell = tree.by_storm
                     ? tree.died
                     : tree.died + static_cast<WorldTime>(wait * snag_years * ticks_of_year);
@@ -90,7 +92,7 @@ std::optional<Fall> fall_of(const Stand& stand, const StandTree& tree, const Fal
     wood.direction = out.mean + 0.5 * deviation;
     wood.length = trunk_share * height;
     wood.radius = 0.5 * foot * diameter;
-    wood.decay = decay_rate(stand.params, ecology);
+    wood.decay = decay_rate(stand.params, ecology) / lasts;
     return out;
 }
 
@@ -115,17 +117,33 @@ double square_distance_of(const glm::dvec2& at, const glm::dvec2& along) {
     return glm::dot(nearest, nearest);
 }
 
+/// Returns how a trunk lies.
+FallenTrunk fallen(const DeadWood& wood) {
+    const glm::dvec2 along = wood.length * way_of(wood);
+    return {wood.at,
+            wood.fell,
+            wood.gone,
+            wood.id,
+            static_cast<float>(along.x),
+            static_cast<float>(along.y)};
+}
+
 /// What stands and lies round a block, by cells of the ground.
 class Obstacles {
   public:
-    Obstacles(std::span<const Falls* const> near, double longest) : longest_(longest) {
+    /// own  ids of the trunks of the block, which are added when they have fallen
+    Obstacles(std::span<const Falls* const> near, const std::set<std::uint64_t>& own,
+              double longest)
+        : longest_(longest) {
         for (const Falls* const one : near) {
             for (const StandingTrunk& trunk : one->standing)
                 standing_[cell_of(trunk.at)].push_back(trunk);
             for (const FallenTrunk& trunk : one->fallen)
-                fallen_[cell_of(trunk.at)].push_back(trunk);
+                if (!own.contains(trunk.id)) fallen_[cell_of(trunk.at)].push_back(trunk);
         }
     }
+
+    void add(const DeadWood& wood) { fallen_[cell_of(wood.at)].push_back(fallen(wood)); }
 
     /// Gathers what a trunk may fall on.
     void gather(const DeadWood& wood) {
@@ -148,25 +166,25 @@ class Obstacles {
         });
     }
 
-    /// Returns how bad it is for the trunk to fall in its direction, 0 on nothing; any cost from `enough` on may be
-    /// too small.
-    [[nodiscard]] double cost_of(const DeadWood& wood, double enough) const {
+    /// Returns how much of the trunk can lie in its direction from its foot on, metres.
+    [[nodiscard]] double free_length(const DeadWood& wood) const {
         const glm::dvec2 way = way_of(wood), end = wood.length * way;
-        double sum = 0.0;
+        double free = wood.length;
         for (const Trunk& trunk : trunks_) {
             const double along = std::clamp(glm::dot(trunk.at, way), 0.0, wood.length);
-            const double own = wood.radius * (1.0 - 0.8 * along / wood.length);
             const glm::dvec2 aside = trunk.at - along * way;
-            if (glm::dot(aside, aside) < square(own + trunk.radius)) sum += cost_of_tree;
+            const double near =
+                square(wood.radius * taper_at(wood, along) + trunk.radius) - glm::dot(aside, aside);
+            if (near > 0.0) free = std::min(free, along - std::sqrt(near));
         }
         for (const Log& log : logs_) {
-            if (sum >= enough) break;
             const double turn = cross(end, log.along), sign = turn < 0.0 ? -1.0 : 1.0;
             const double here = sign * cross(log.at, log.along), there = sign * cross(log.at, end);
             const double most = sign * turn;
-            if (here > 0.0 && here < most && there > 0.0 && there < most) sum += cost_of_trunk;
+            if (here > 0.0 && here < most && there > 0.0 && there < most)
+                free = std::min(free, wood.length * here / most - wood.radius - gap);
         }
-        return sum;
+        return free;
     }
 
   private:
@@ -229,10 +247,7 @@ Falls falls_of(const Stand& stand, std::span<const StandTree> trees, const FallS
         const DeadWood& wood = fall->wood;
         out.standing.push_back({tree.at, tree.id, tree.born, fall->stays ? wood.fell : tree.died,
                                 static_cast<float>(roots * wood.radius)});
-        if (!fall->stays) continue;
-        const glm::dvec2 along = wood.length * way_of(wood);
-        out.fallen.push_back({wood.at, wood.fell, wood.gone, wood.id, static_cast<float>(along.x),
-                              static_cast<float>(along.y)});
+        if (fall->stays) out.fallen.push_back(fallen(wood));
     }
     return out;
 }
@@ -240,22 +255,32 @@ Falls falls_of(const Stand& stand, std::span<const StandTree> trees, const FallS
 std::vector<DeadWood> dead_wood_of(const Stand& stand, std::span<const StandTree> trees,
                                    std::span<const Falls* const> near, const FallSiteAt& site,
                                    double downwind) {
-    Obstacles obstacles(near, longest_trunk(stand));
-    std::vector<DeadWood> out;
+    std::vector<Fall> falls;
+    std::set<std::uint64_t> own;
     for (const StandTree& tree : trees) {
-        std::optional<Fall> fall = fall_of(stand, tree, site, downwind);
+        const std::optional<Fall> fall = fall_of(stand, tree, site, downwind);
         if (!fall || !fall->stays) continue;
-        DeadWood best = fall->wood;
+        falls.push_back(*fall);
+        own.insert(fall->wood.id);
+    }
+    std::sort(falls.begin(), falls.end(), [](const Fall& a, const Fall& b) {
+        return std::pair(a.wood.fell, a.wood.id) < std::pair(b.wood.fell, b.wood.id);
+    });
+    Obstacles obstacles(near, own, longest_trunk(stand));
+    std::vector<DeadWood> out;
+    for (Fall& fall : falls) {
+        DeadWood best = fall.wood;
         obstacles.gather(best);
-        constexpr double all = 1e9;
-        double least = obstacles.cost_of(best, all);
-        for (int i = 0; i < most_falls && least > 0.0; ++i) {
-            fall->turn();
-            const double cost = obstacles.cost_of(fall->wood, least);
-            if (cost >= least) continue;
-            least = cost;
-            best = fall->wood;
+        double longest = obstacles.free_length(best);
+        for (int i = 0; i < most_falls && longest < best.length; ++i) {
+            fall.turn();
+            const double free = obstacles.free_length(fall.wood);
+            if (free <= longest) continue;
+            longest = free;
+            best.direction = fall.wood.direction;
         }
+        best.length = std::clamp(longest, std::min(shortest, best.length), best.length);
+        obstacles.add(best);
         out.push_back(best);
     }
     std::sort(out.begin(), out.end(),

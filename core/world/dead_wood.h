@@ -27,10 +27,10 @@ using FallSiteAt = std::function<FallSite(WorldPoint)>;
 /// Returns the length that no trunk of a stand exceeds, metres.
 [[nodiscard]] double longest_trunk(const Stand& stand);
 
-/// Returns k of the mass e^(-k t) of the dead trunks of a kind, per year.
+/// Returns k of the mass e^(-k t) of the thick dead trunks of a kind, per year.
 [[nodiscard]] double decay_rate(const StandParams& params, const TreeEcology& ecology);
 
-/// Returns for how long after its death a trunk of a kind is there, years: until a sixth of its mass is left.
+/// Returns for how long after its death a thick trunk of a kind is there, years: until a sixth of its mass is left.
 [[nodiscard]] double years_of_decay(const StandParams& params, const TreeEcology& ecology);
 
 /// A trunk that stands at a place for some time, alive or as a snag.
@@ -63,7 +63,8 @@ struct Falls {
                              const FallSiteAt& site, double downwind);
 
 /// Returns the dead wood of a block. Storms fell trunks, all others stand for up to 15 years as snags until they fall
-/// downwind or downhill; where it can, a trunk falls beside living trees and snags, and across no other trunk.
+/// downwind or downhill. Where it can, a trunk falls beside living trees, snags and older trunks; otherwise it breaks before
+/// them. Older trunks of other blocks count as if nothing had been in their way.
 ///
 /// trees    of the block
 /// near     falls_of() the block and the eight round it

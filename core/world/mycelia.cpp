@@ -407,7 +407,7 @@ bool is_beside(const DeadWood& wood, WorldPoint place, WorldTime time) {
     const double x = metres(place.x) - metres(wood.at.x), y = metres(place.y) - metres(wood.at.y);
     const auto [sine, cosine] = sine_cosine(wood.direction);
     const double along =
-        wood.stands_at(time) ? 0.0 : std::clamp(x * cosine + y * sine, 0.0, wood.length);
+        wood.stands_at(time) ? 0.0 : std::clamp(x * cosine + y * sine, 0.0, length_at(wood, time));
     const double dx = x - along * cosine, dy = y - along * sine;
     const double most = radius_at(wood, time) + beside;
     return dx * dx + dy * dy <= most * most;

@@ -79,7 +79,7 @@ struct DeadWood {
     WorldTime died = 0, fell = 0, gone = 0;
     std::uint8_t kind = 0;   ///< which of the kinds of the stand
     double direction = 0.0;  ///< in which it lies, radians from east to north
-    double length = 0.0;     ///< metres
+    double length = 0.0;     ///< when it died, metres; length_at() says how much is left
     double radius = 0.0;     ///< at the foot, when it died, metres; the top has a fifth of that
     double decay = 0.0;      ///< k of its mass e^(-k t), per year
     [[nodiscard]] bool stands_at(WorldTime time) const { return died <= time && time < fell; }

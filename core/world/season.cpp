@@ -381,11 +381,14 @@ class Season {
         double from = 0.0, to = 0.0, area = 0.0;
     };
 
-    static Reached reached(const DeadWood& wood, const Genet& genet, WorldTime time) {
+    /// length  of what is left of the trunk, metres
+    static Reached reached(const DeadWood& wood, const Genet& genet, WorldTime time,
+                           double length) {
         const double middle = along(wood, genet), radius = radius_at(genet, time);
-        Reached out{std::max(0.0, middle - radius), std::min(wood.length, middle + radius)};
-        const double girth = 2.0 * pi * radius_at(wood, time) *
-                             (1.0 - 0.8 * 0.5 * (out.from + out.to) / wood.length);
+        Reached out{std::max(0.0, middle - radius), std::min(length, middle + radius)};
+        if (out.from >= out.to) return {};
+        const double girth =
+            2.0 * pi * radius_at(wood, time) * taper_at(wood, 0.5 * (out.from + out.to));
         out.area = girth * (out.to - out.from);
         return out;
     }
@@ -412,7 +415,7 @@ class Season {
         const std::vector<int> days = flushes_of(genet, site);
         for (std::size_t i = 0; i < days.size(); ++i) {
             const WorldTime flush = time_of(input_.year, days[i] + 1);
-            const Reached part = reached(*wood, genet, flush);
+            const Reached part = reached(*wood, genet, flush, length_at(*wood, flush));
             for_clusters(
                 ecology.fruit.density * part.area * suits, genet.id, flush_number(i),
                 [&](double appears, CellRandom random) {
@@ -429,7 +432,7 @@ class Season {
                      CellRandom& random, std::vector<Sprout>& out) {
         const FruitHabit& fruit = species_->ecology.fruit;
         const bool stands = wood.stands_at(cluster.flush);
-        const double foot = radius_at(wood, cluster.flush);
+        const double foot = radius_at(wood, cluster.flush), length = length_at(wood, cluster.flush);
         if (!is_near(stands ? wood.at : at(wood.at, place, wood.direction),
                      scatter_ + spacing_ + 2.0 * foot))
             return;
@@ -452,12 +455,14 @@ class Season {
                 body.host = genet.host;
                 body.trunk = wood.id;
                 set_times(body, cluster.flush, random);
+                const double position = place + fruit.cluster_spread * away + fruit.tuft_spread * x;
+                if (position < 0.0 || position > length) continue;
                 body.gone = std::min(body.gone, stands ? wood.fell : wood.gone);
+                if (position > length_at(wood, body.gone - 1))
+                    body.gone = std::min(body.gone, when_shorter(wood, position));
                 body.matured = std::min(body.matured, body.gone - 1);
                 if (body.gone <= body.emerged + 1) continue;
-                const double position = place + fruit.cluster_spread * away + fruit.tuft_spread * x;
-                if (position < 0.0 || position > wood.length) continue;
-                const double radius = foot * (1.0 - 0.8 * position / wood.length);
+                const double radius = foot * taper_at(wood, position);
                 const double bend =
                     (fruit.cluster_spread * round + fruit.tuft_spread * y) / std::max(radius, 0.01);
                 put_on_bark(body, wood, stands, position, radius,
@@ -495,7 +500,7 @@ class Season {
         const DeadWood* wood = trunk_of(genet);
         if (wood == nullptr || !(wood->length > 0.0) || !is_trunk_near(*wood, genet)) return;
         const double suits = suitability(ecology, fungi_.habitat.site_at(genet.centre, genet.born));
-        const Reached whole = reached(*wood, genet, genet.died - 1);
+        const Reached whole = reached(*wood, genet, genet.died - 1, length_at(*wood, genet.born));
         std::vector<Sprout> sprouts;
         for_clusters(
             ecology.fruit.density * whole.area * suits, genet.id, 0,

@@ -43,6 +43,13 @@ double snow_after(double before, const WeatherDay& day) {
     return std::max(0.0, before + day.rain * frozen - melting * std::max(day.temperature, 0.0));
 }
 
+/// Returns the share of the snow that is left at a distance from the middle of a trunk, metres.
+double share_beside(const TreeFoot& foot, double distance) {
+    const double radius = 0.55 * foot.diameter;
+    return smooth_step(radius - 0.05, std::min(radius + 0.1 + 1.2 * foot.diameter, snow_well),
+                       distance);
+}
+
 }  // namespace
 
 double snow_on(const ClimateParams& climate, std::uint32_t seed, int year, int day) {
@@ -62,7 +69,7 @@ double snow_on(const ClimateParams& climate, std::uint32_t seed, int year, int d
 double snow_cover(double water) { return smooth_step(0.0, closed_cover, water); }
 
 void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_t seed,
-              const Parallel& parallel) {
+              std::span<const TreeFoot> feet, const Parallel& parallel) {
     if (cover <= 0.0) return;
     Random random(seed, purposes::floor_noise, 3);
     std::array<std::uint32_t, waves.size()> seeds{};
@@ -75,6 +82,7 @@ void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_
     };
     const auto paint = [&](std::size_t first, std::size_t last) {
         std::vector<float> u(side), v(side), noise(side), sum(side);
+        std::vector<double> left(side);
         for (std::size_t row = first; row < last; ++row) {
             std::fill(sum.begin(), sum.end(), 0.0F);
             for (std::size_t k = 0; k < waves.size(); ++k) {
@@ -85,13 +93,23 @@ void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_
                 gradient_noise(u, v, seeds[k], noise);
                 for (std::size_t i = 0; i < side; ++i) sum[i] += weights[k] * noise[i];
             }
+            std::fill(left.begin(), left.end(), 1.0);
+            for (const TreeFoot& foot : feet) {
+                const double north = place(box.north, box.south, row) - foot.y;
+                if (std::abs(north) > snow_well) continue;
+                for (std::size_t i = 0; i < side; ++i) {
+                    const double east = place(box.west, box.east, i) - foot.x;
+                    if (std::abs(east) < snow_well)
+                        left[i] *= share_beside(foot, std::sqrt(east * east + north * north));
+                }
+            }
             for (std::size_t i = 0; i < side; ++i) {
                 const std::size_t texel = 3 * (row * side + i);
                 // What is bright stands out of the floor, and is covered last.
                 const float bright = static_cast<float>(images.rgb[0][texel + 1]) / 255.0F;
                 const auto own = static_cast<float>(
                     smooth_step(-0.12, 0.12,
-                                1.5 * cover - 0.5 + 0.6 * static_cast<double>(sum[i]) -
+                                1.5 * cover * left[i] - 0.5 + 0.6 * static_cast<double>(sum[i]) -
                                     0.35 * static_cast<double>(bright)));
                 for (std::size_t image = 0; image < snow.size(); ++image)
                     for (std::size_t c = 0; c < 3; ++c) {

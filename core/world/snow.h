@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/images.h"
 #include "core/world/ground.h"
+#include "core/world/plot_ground.h"
 #include "core/world/world_params.h"
 
 namespace sporeprint {
@@ -27,12 +29,16 @@ namespace sporeprint {
 /// water  that lies as snow, mm
 [[nodiscard]] double snow_cover(double water);
 
+/// How far from the middle of a trunk there is less snow at most, metres.
+inline constexpr double snow_well = 1.5;
+
 /// Covers a floor with snow: hollows last, so that leaves and tufts look out of a little of it. Texels at one place of
 /// the world are covered alike in all images whose texels are of one size.
 ///
 /// box    of the images, whose first row is the northern one
 /// cover  share of the ground, 0..1
+/// feet   of living trees within snow_well of the box: dark trunks melt it, and crowns hold it back
 void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_t seed,
-              const Parallel& parallel = in_turn);
+              std::span<const TreeFoot> feet, const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
 
 namespace sporeprint {
 
@@ -16,6 +19,21 @@ constexpr double growth_rate = 0.028, growth_shape = 1.4;
 
 /// Crowns of a tree: radius of a seedling, and metres of radius per metre of height.
 constexpr double least_crown = 0.25, crown_growth = 0.13, greatest_crown = 5.0;
+
+/// Diameters of the thinnest and of thick wood, metres, and how long the thinnest is there, compared with thick wood.
+constexpr double thin = 0.04, thick = 0.15, lasting_of_thin = 0.5;
+
+/// Radius of the top of a trunk, compared with that of its foot.
+constexpr double top_radius = 0.2;
+
+/// Returns how much of a snag stands, metres: tops break off first, piece by piece.
+double height_of_snag(const DeadWood& wood, WorldTime time) {
+    constexpr double lowest = 1.0;
+    Random random(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 1);
+    const double broken =
+        (0.15 + 0.55 * random.uniform()) * std::min(1.0, 2.5 * mass_lost(wood, time));
+    return std::max(std::min(lowest, wood.length), wood.length * (1.0 - broken));
+}
 
 /// Returns the age at which a tree has a share of its final height below 1.
 double exact_age(double share) {
@@ -75,6 +93,37 @@ double mass_lost(const DeadWood& wood, WorldTime time) {
 
 double radius_at(const DeadWood& wood, WorldTime time) {
     return wood.radius * std::sqrt(1.0 - mass_lost(wood, time));
+}
+
+double taper_at(const DeadWood& wood, double along) {
+    return 1.0 - (1.0 - top_radius) * std::clamp(along / wood.length, 0.0, 1.0);
+}
+
+double lasting(double diameter) {
+    const double thickness = std::clamp((diameter - thin) / (thick - thin), 0.0, 1.0);
+    return lasting_of_thin + (1.0 - lasting_of_thin) * thickness;
+}
+
+double length_at(const DeadWood& wood, WorldTime time) {
+    const double broken = height_of_snag(wood, std::min(time, wood.fell));
+    if (time >= wood.gone) return 0.0;
+    // Compared with the time that thick wood is there.
+    const double age = lasting(2.0 * wood.radius) * years_between(wood.died, time) /
+                       std::max(years_between(wood.died, wood.gone), 1e-9);
+    if (age <= lasting_of_thin || wood.stands_at(time)) return broken;
+    const double thinnest =
+        thin + (thick - thin) * (age - lasting_of_thin) / (1.0 - lasting_of_thin);
+    const double left = wood.length * (1.0 - thinnest / (2.0 * wood.radius)) / (1.0 - top_radius);
+    return std::clamp(left, 0.0, broken);
+}
+
+WorldTime when_shorter(const DeadWood& wood, double along) {
+    WorldTime before = wood.died, after = wood.gone;
+    while (after - before > 1) {
+        const WorldTime middle = before + (after - before) / 2;
+        (length_at(wood, middle) < along ? after : before) = middle;
+    }
+    return after;
 }
 
 }  // namespace sporeprint

@@ -243,13 +243,14 @@ PlotRequest read_plot(const RouteCall& call, Product file, ValidationErrors& err
     return request;
 }
 
-PlotOptions options_of(const PlotRequest& request) {
+PlotOptions options_of(const PlotRequest& request, Product file) {
     const PlotParams& params = request.params;
     PlotOptions options;
     options.lod = params.lod;
     options.texture_size = params.texture_size;
     options.litter = params.litter;
     options.layers = request.layers;
+    options.for_picture = file == Product::png;
     options.instancing = params.instancing;
     options.textures = params.textures;
     options.file.compress = params.compress;
@@ -268,7 +269,7 @@ Cost cost_of_plot(const PlotRequest& request, Product file) {
     if (file == Product::png) {
         const bool shows_world = request.picture.shows_world();
         cost += cost_of_drawing(request.picture.picture(),
-                                shows_world ? most_scenery_triangles : most_plot_triangles);
+                                shows_world ? most_scenery_triangles : most_picture_triangles);
         const auto side =
             static_cast<std::uint64_t>(shows_world ? scenery_texels : params.texture_size);
         cost.pixels += 3 * side * side;
@@ -315,7 +316,7 @@ Value dead_on(const WorldPlot& plot, const WorldBox& box, WorldTime time) {
                       .set("kind", plot.content.kinds[wood.kind])
                       .set("stands", stands)
                       .set("place_m", place_value(*plot.world, wood.at))
-                      .set("length_m", rounded(wood.length, 100.0))
+                      .set("length_m", rounded(length_at(wood, time), 100.0))
                       .set("diameter_m", rounded(2.0 * radius_at(wood, time), 1000.0))
                       .set("mass_lost", rounded(mass_lost(wood, time), 1000.0)));
     }
@@ -420,8 +421,8 @@ Plan plan_file(RouteCall& call, Product file) {
                 const StandingCamera camera =
                     camera_of(plot->content, picture.view, picture.turn_deg);
                 if (picture.shows_world())
-                    return png_of(scenery_of(*plot, options_of(*request), camera, picture.picture(),
-                                             *context.atlas, execution));
+                    return png_of(scenery_of(*plot, options_of(*request, file), camera,
+                                             picture.picture(), *context.atlas, execution));
                 extras.write = [&, camera](const GlbScene& scene,
                                            const Parallel& parallel) -> Body {
                     execution.observer(Step::draw);
@@ -433,7 +434,8 @@ Plan plan_file(RouteCall& call, Product file) {
                         parallel));
                 };
             }
-            return grow_plot(plot->content, options_of(*request), *context.atlas, extras, execution)
+            return grow_plot(plot->content, options_of(*request, file), *context.atlas, extras,
+                             execution)
                 .glb;
         },
         request->world.edits);

@@ -34,8 +34,8 @@ constexpr double slab_spacing = 0.078;
 constexpr int fewest_slab_nodes = 33, most_slab_nodes = 193;
 
 /// Shares of the triangles of a plot.
-constexpr std::uint64_t most_of_trees = 200'000, most_of_bodies = 130'000, most_of_leaves = 60'000,
-                        most_of_grass = 110'000;
+constexpr std::uint64_t most_of_trees_in_pictures = 1'500'000, most_of_trees = 200'000,
+                        most_of_bodies = 130'000, most_of_leaves = 60'000, most_of_grass = 110'000;
 
 /// Side of the images of wood at LOD 0, texels.
 constexpr int wood_texture_side = 1024;
@@ -83,7 +83,9 @@ class PlotScene {
         throw_if_cancelled(execution_);
         if (options_.has(PlotLayer::ground)) add_slab(frame, cover);
         if (options_.has(PlotLayer::trees))
-            trees_ = trees_of(content_, options_, frame, most_of_trees, atlas_, execution_);
+            trees_ = trees_of(content_, options_, frame,
+                              options_.for_picture ? most_of_trees_in_pictures : most_of_trees,
+                              atlas_, execution_);
         if (options_.has(PlotLayer::fungi))
             bodies_ = bodies_of(content_, options_, frame, most_of_bodies, atlas_, execution_);
         add_trees();
@@ -133,7 +135,9 @@ class PlotScene {
             leaves_ = leaves_of(content_, frame, cover, per_m2, atlas_);
         add_leaves();
         add_flowers(frame, cover);
-        const std::uint64_t left = most_plot_triangles - std::min(most_plot_triangles, triangles_);
+        const std::uint64_t most =
+            options_.for_picture ? most_picture_triangles : most_plot_triangles;
+        const std::uint64_t left = most - std::min(most, triangles_);
         add_grass(grass_of(content_, frame, cover, std::min(most_of_grass, left)));
     }
 
@@ -384,7 +388,12 @@ RawImages floor_of(const PlotContent& content, const CoverField& cover, int side
     paint.cover = &cover;
     paint.pieces = pieces;
     RawImages images = floor_images(paint, parallel);
-    add_snow(images, paint.box, content.snow, content.seed, parallel);
+    std::vector<TreeFoot> feet;
+    for (const StandTree& tree : content.trees)
+        if (tree.lives_at(content.time) && contains(grown(paint.box, snow_well), tree.at))
+            feet.push_back({metres(tree.at.x), metres(tree.at.y),
+                            trunk_diameter(height_at(tree, content.time))});
+    add_snow(images, paint.box, content.snow, content.seed, feet, parallel);
     return images;
 }
 

@@ -83,13 +83,15 @@ struct PlotOptions {
     Textures textures = Textures::embedded;            ///< embedded or none
     FileOptions file;
     std::array<bool, plot_layer_count> layers{true, true, true, true};
+    bool for_picture = false;  ///< trees are one level finer than in files, and have more triangles
     [[nodiscard]] bool has(PlotLayer layer) const {
         return layers[static_cast<std::size_t>(layer)];
     }
 };
 
 /// The budget of a plot: what exceeds it is shown with less detail.
-inline constexpr std::uint64_t most_plot_triangles = 500'000;
+inline constexpr std::uint64_t most_plot_triangles = 500'000,
+                               most_picture_triangles = 1'800'000;  ///< of a plot in a picture
 inline constexpr std::size_t most_plot_nodes = 400, most_plot_mushrooms = 16;
 
 /// Returns the day of the year of a moment, 1..365.

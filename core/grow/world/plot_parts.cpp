@@ -76,43 +76,92 @@ TreeSize size_of(const TreeMeshes& meshes) {
 
 int sides_of(double radius) { return radius > 0.18 ? 16 : radius > 0.08 ? 12 : 8; }
 
+/// Appends what is left of the branches of a trunk: short, broken, turned to its top.
+///
+/// from, to  part of the trunk, metres from its foot
+/// lies      a log has none below
+void add_stubs(Mesh& mesh, const TrunkLine& line, double from, double to, bool lies,
+               const TrunkPieceParams& trunk, Random& random) {
+    constexpr double between = 0.9, thinnest = 0.035;
+    const double first = std::max(from, 0.12 * line.whole) + between * random.uniform();
+    for (double s = first; s < to - 0.1; s += between * (0.4 + 1.2 * random.uniform())) {
+        const double turn = (lies ? 0.62 : 1.0) * pi * random.symmetric(),
+                     lean = 0.25 + 0.5 * random.uniform(), thickness = random.uniform(),
+                     length = random.uniform(), stays = random.uniform();
+        const std::uint32_t seed = random.bits();
+        const TrunkSection section = line.section(s);
+        // The more has decayed, the fewer are left.
+        if (section.radius < thinnest || stays < 1.6 * trunk.lost) continue;
+        const glm::dvec3 along = unit_or(
+            line.section(std::min(s + 0.05, to - 1e-6)).middle - section.middle, {0.0, 1.0, 0.0});
+        const glm::dvec3 up = square_to(along, {0.0, 1.0, 0.0}), side = glm::cross(along, up);
+        const SineCosine round = sine_cosine(turn);
+        const glm::dvec3 way = glm::normalize(round.cosine * up + round.sine * side + lean * along);
+        TrunkPieceParams stub = trunk;
+        const double radius = section.radius * (0.14 + 0.16 * thickness);
+        stub.length = section.radius + radius * (1.5 + 9.0 * length * length);
+        stub.start = 0.0;
+        stub.seed = seed;
+        stub.sides = 6;
+        stub.rings = 4;
+        stub.foot = TrunkEnd::cut;
+        stub.top = TrunkEnd::broken;
+        append(mesh, trunk_piece(stub, [&](double out) {
+                   return TrunkSection{section.middle + out * way,
+                                       radius * (1.0 - 0.4 * out / stub.length)};
+               }));
+    }
+}
+
 PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& content,
                const CoverField& cover, Substrate kind, const TrunkDetail& detail) {
     const bool lies = wood.lies_at(content.time);
     const double lost = mass_lost(wood, content.time);
-    // A snag goes on below the ground.
-    const double below = lies ? 0.0 : 0.25;
     TrunkPieceParams params;
-    params.length = line.to - line.from + below;
     params.seed = static_cast<std::uint32_t>(wood.id);
     params.sides = std::min(sides_of(radius_at(wood, content.time)), detail.sides);
     params.rings = detail.rings;
-    params.foot = TrunkEnd::cut;
-    params.lost = 0.6 * lost;
-    if (lies) {
-        params.start = line.from;
-        params.lost = lost;
-        if (line.from <= 0.0) params.foot = TrunkEnd::broken;
-        if (line.to < wood.length) params.top = TrunkEnd::cut;
-        const SineCosine turn = sine_cosine(wood.direction);
-        const double middle = 0.5 * (line.from + line.to);
-        const double damp = cover
-                                .at(metres(wood.at.x) + middle * turn.cosine,
-                                    metres(wood.at.y) + middle * turn.sine)
-                                .moss;
-        params.moss = std::clamp(1.4 * damp + 1.2 * lost - 0.15, 0.0, 1.0);
+    params.lost = lies ? lost : 0.6 * lost;
+    Random of_stubs(params.seed, purposes::plot_pieces, 4);
+    PlotLog log{wood.id, kind, lies, {}, {}};
+    if (!lies) {
+        // A snag goes on below the ground.
+        constexpr double below = 0.25;
+        params.length = line.to - line.from + below;
+        params.foot = TrunkEnd::cut;
+        log.mesh = trunk_piece(params, [&](double s) { return line.section(s - below); });
+        if (detail.stubs) add_stubs(log.mesh, line, line.from, line.to, lies, params, of_stubs);
+        return log;
     }
-    const auto section = [&](double s) { return line.section(line.from + s - below); };
-    PlotLog log{wood.id, kind, lies, trunk_piece(params, section), {}};
-    if (lies) {
-        SnowCapParams snow;
-        snow.length = params.length;
-        snow.depth = content.snow_depth;
-        snow.cover = content.snow;
-        snow.seed = params.seed;
-        snow.step = detail.snow_step;
-        snow.columns = detail.snow_columns;
-        log.snow = snow_cap(snow, section);
+    const SineCosine turn = sine_cosine(wood.direction);
+    const double middle = 0.5 * (line.from + line.to);
+    const double damp =
+        cover.at(metres(wood.at.x) + middle * turn.cosine, metres(wood.at.y) + middle * turn.sine)
+            .moss;
+    params.moss = std::clamp(1.4 * damp + 1.2 * lost - 0.15, 0.0, 1.0);
+    SnowCapParams snow;
+    snow.depth = content.snow_depth;
+    snow.cover = content.snow;
+    snow.step = detail.snow_step;
+    snow.columns = detail.snow_columns;
+    std::vector<double> ends = line.breaks;
+    ends.insert(ends.begin(), line.from);
+    ends.push_back(line.to);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        constexpr double shortest = 0.2, within = 1e-6;
+        const double from = ends[i], to = ends[i + 1];
+        if (to - from < shortest) continue;
+        const auto section = [&](double s) {
+            return line.section(std::min(from + s, to - within));
+        };
+        params.length = snow.length = to - from;
+        params.start = from;
+        params.seed = snow.seed = static_cast<std::uint32_t>(wood.id + i);
+        params.foot = i > 0 || from <= 0.0 ? TrunkEnd::broken : TrunkEnd::cut;
+        params.top = to < line.to || to >= line.whole ? TrunkEnd::broken : TrunkEnd::cut;
+        append(log.mesh, trunk_piece(params, section));
+        if (detail.stubs) add_stubs(log.mesh, line, from, to, lies, params, of_stubs);
+        append(log.snow, snow_cap(snow, section));
     }
     return log;
 }
@@ -180,7 +229,7 @@ PlotTrees trees_of(const PlotContent& content, const PlotOptions& options, const
     for (const StandTree& tree : content.trees)
         if (tree.lives_at(content.time) && frame.has(tree.at)) standing.push_back(&tree);
     PlotTrees made;
-    for (int lod = options.lod + 1;; ++lod) {
+    for (int lod = options.lod + (options.for_picture ? 0 : 1);; ++lod) {
         made = {};
         std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> shape_of;
         std::uint64_t triangles = 0;

@@ -77,6 +77,7 @@ struct TrunkDetail {
     int sides = 16, rings = 160;
     double snow_step = 0.12;
     int snow_columns = 6;
+    bool stubs = true;  ///< of branches
 };
 
 /// Returns the dead trunks on a plot: logs are cut where they leave it.

@@ -41,79 +41,105 @@ std::optional<std::pair<double, double>> part_within(const WorldBox& box, const 
     return std::pair{first, last};
 }
 
-/// How far a log bends with the ground: over half of this length its height is the mean of the ground's, metres.
-constexpr double stiffness = 2.4;
-
-/// Heights of the ground along a lying trunk, as the trunk smooths them: a sound one is straight between the places where
-/// it is broken, a rotten one follows the ground.
-class LogProfile {
+/// A trunk that lies: straight pieces between the places where it is broken, the shorter the further it has decayed.
+class LyingTrunk {
   public:
-    /// rotten  0..1
-    LogProfile(const FloorHeights& floor, const glm::dvec2& from, const glm::dvec2& way,
-               double length, double rotten) {
-        const auto count = static_cast<std::size_t>(std::ceil(length / step)) + 1;
-        std::vector<double> own;
-        own.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const double s = std::min(static_cast<double>(i) * step, length);
-            own.push_back(floor.at(from.x + s * way.x, from.y + s * way.y));
+    LyingTrunk(const FloorHeights& floor, const DeadWood& wood, WorldTime time)
+        : foot_(metres(wood.at.x), metres(wood.at.y)), length_(wood.length) {
+        const SineCosine turn = sine_cosine(wood.direction);
+        way_ = {turn.cosine, turn.sine};
+        const double radius = radius_at(wood, time), lost = mass_lost(wood, time);
+        double piece = sound_piece;
+        for (const double further : {0.3, 0.5, 0.7})
+            if (lost > further) piece *= 0.6;
+        const auto pieces = static_cast<std::size_t>(std::max(1.0, std::floor(length_ / piece)));
+        Random random(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 3);
+        // Pieces of rotten trunks lie beside each other's line.
+        const double aside = radius * std::min(0.5, 0.8 * lost);
+        for (std::size_t i = 0; i < pieces; ++i) {
+            const double from = length_ * static_cast<double>(i) / static_cast<double>(pieces),
+                         to = length_ * static_cast<double>(i + 1) / static_cast<double>(pieces);
+            Piece own{from, to, {}, {}, aside * random.symmetric(), aside * random.symmetric()};
+            own.up_from = around(floor, from);
+            own.up_to = around(floor, to);
+            // None is buried where the ground rises below it.
+            double buried = 0.0;
+            for (double s = from; s < to; s += step)
+                buried = std::max(buried, height(floor, s) - own.up_at(s));
+            const double raised = std::max(0.0, buried - 0.6 * radius * taper_at(wood, to));
+            own.up_from += raised;
+            own.up_to += raised;
+            pieces_.push_back(own);
         }
-        const auto reach = static_cast<std::size_t>(stiffness / step);
-        heights_.reserve(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t side = std::min({reach, i, count - 1 - i});
-            double sum = 0.0;
-            for (std::size_t k = i - side; k <= i + side; ++k) sum += own[k];
-            heights_.push_back(sum / static_cast<double>(2 * side + 1));
-        }
-        straighten(rotten);
     }
-    [[nodiscard]] double at(double s) const {
-        const double number = std::clamp(s / step, 0.0, static_cast<double>(heights_.size() - 1));
-        const auto i = std::min(static_cast<std::size_t>(number), heights_.size() - 1);
-        const std::size_t next = std::min(i + 1, heights_.size() - 1);
-        return heights_[i] + (number - static_cast<double>(i)) * (heights_[next] - heights_[i]);
+
+    /// A place of the axis if the trunk had no thickness, and its height.
+    struct Lying {
+        glm::dvec2 at;
+        double height;
+    };
+    [[nodiscard]] Lying at(double s) const {
+        const auto number = static_cast<double>(pieces_.size()) * s / length_;
+        const Piece& piece = pieces_[static_cast<std::size_t>(
+            std::clamp(number, 0.0, static_cast<double>(pieces_.size()) - 1.0))];
+        return {foot_ + s * way_ + piece.aside_at(s) * glm::dvec2(-way_.y, way_.x), piece.up_at(s)};
+    }
+
+    /// Returns the places where the trunk is broken between two distances from its foot.
+    [[nodiscard]] std::vector<double> breaks(double from, double to) const {
+        std::vector<double> out;
+        for (const Piece& piece : pieces_)
+            if (piece.from > from && piece.from < to) out.push_back(piece.from);
+        return out;
     }
 
   private:
-    /// Makes a sound trunk straight between the places where it is broken, since longer ones would span the hollows of
-    /// the ground.
-    void straighten(double rotten) {
-        const std::size_t last = heights_.size() - 1;
-        const auto pieces = std::max<std::size_t>(1, last / between_breaks);
-        const std::vector<double> ground = heights_;
-        for (std::size_t piece = 0; piece < pieces; ++piece) {
-            const std::size_t from = last * piece / pieces, to = last * (piece + 1) / pieces;
-            if (to <= from) continue;
-            for (std::size_t i = from; i <= to; ++i) {
-                const double along = static_cast<double>(i - from) / static_cast<double>(to - from);
-                const double line = ground[from] + along * (ground[to] - ground[from]);
-                heights_[i] = ground[i] + (1.0 - rotten) * (line - ground[i]);
-            }
+    struct Piece {
+        double from, to;        ///< distances from the foot, metres
+        double up_from, up_to;  ///< heights of its ends
+        double aside_from, aside_to;
+        [[nodiscard]] double along(double s) const { return (s - from) / (to - from); }
+        [[nodiscard]] double up_at(double s) const {
+            return up_from + along(s) * (up_to - up_from);
         }
+        [[nodiscard]] double aside_at(double s) const {
+            return aside_from + along(s) * (aside_to - aside_from);
+        }
+    };
+
+    [[nodiscard]] double height(const FloorHeights& floor, double s) const {
+        const glm::dvec2 place = foot_ + s * way_;
+        return floor.at(place.x, place.y);
+    }
+    /// Returns the mean height of the ground round a place of the trunk.
+    [[nodiscard]] double around(const FloorHeights& floor, double s) const {
+        const double side = std::min({reach, s, length_ - s});
+        const auto steps = static_cast<int>(std::ceil(side / step));
+        double sum = 0.0;
+        for (int i = -steps; i <= steps; ++i)
+            sum += height(floor, s + side * (steps > 0 ? static_cast<double>(i) / steps : 0.0));
+        return sum / (2.0 * steps + 1.0);
     }
 
-    /// Length of a piece, in steps.
-    static constexpr std::size_t between_breaks = 35;
+    /// Length of the pieces of a sound trunk, what of the ground round the end of a piece decides on its height, and the
+    /// step at which the ground is looked at, metres.
+    static constexpr double sound_piece = 8.0, reach = 0.8, step = 0.2;
 
-    static constexpr double step = 0.2;  // metres
-    std::vector<double> heights_;
+    glm::dvec2 foot_, way_{1.0, 0.0};
+    double length_;
+    std::vector<Piece> pieces_;
 };
 
 TrunkLine line_of_snag(const DeadWood& wood, const PlotContent& content, const PlotFrame& frame) {
     const double x = metres(wood.at.x), y = metres(wood.at.y);
-    const double radius = radius_at(wood, content.time), lost = mass_lost(wood, content.time);
-    // Tops break off first, piece by piece.
-    Random random(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 1);
-    const double share_left = 1.0 - (0.15 + 0.55 * random.uniform()) * std::min(1.0, 2.5 * lost);
-    const double height = std::max(1.0, wood.length * share_left);
+    const double radius = radius_at(wood, content.time);
+    const double height = length_at(wood, content.time);
     const double ground = frame.floor().at(x, y) - 0.2 * radius;
-    const double whole = std::max(wood.length, height);
-    return {0.0, height, [=, &frame](double up) {
-                const double flare = 0.55 * exponential(-std::max(up, 0.0) / (1.6 * radius));
-                const double taper = 1.0 - 0.8 * std::clamp(up / whole, 0.0, 1.0);
-                return TrunkSection{frame.at(x, y, ground + up), radius * (taper + flare)};
-            }};
+    return {
+        0.0, height, height, {}, [=, &frame](double up) {
+            const double flare = 0.55 * exponential(-std::max(up, 0.0) / (1.6 * radius));
+            return TrunkSection{frame.at(x, y, ground + up), radius * (taper_at(wood, up) + flare)};
+        }};
 }
 
 std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& content,
@@ -122,26 +148,27 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     const SineCosine turn = sine_cosine(wood.direction);
     const glm::dvec2 foot(metres(wood.at.x), metres(wood.at.y)), way(turn.cosine, turn.sine);
     const double radius = radius_at(wood, content.time), lost = mass_lost(wood, content.time);
-    const auto part = part_within(frame.box(), foot, foot + wood.length * way);
+    const double whole = length_at(wood, content.time);
+    const auto part = part_within(frame.box(), foot, foot + whole * way);
     if (!part) return std::nullopt;
     // A cut end stays within the slab, unless the trunk hardly crosses its border.
     constexpr double most_radii = 2.0;
     const double across = std::max(std::abs(way.x), std::abs(way.y));
     const double inset =
         radius * std::min(most_radii, std::sqrt(1.0 - std::min(across * across, 1.0)) / across);
-    const double from = part->first > 0.0 ? part->first * wood.length + inset : 0.0,
-                 to = part->second < 1.0 ? part->second * wood.length - inset : wood.length;
+    const double from = part->first > 0.0 ? part->first * whole + inset : 0.0,
+                 to = part->second < 1.0 ? part->second * whole - inset : whole;
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
-    const LogProfile profile(frame.floor(), foot, way, wood.length, smooth_step(0.2, 0.95, lost));
+    const LyingTrunk lying(frame.floor(), wood, content.time);
     // Rotten wood sinks into the ground.
-    const double raised = 0.72 - 0.55 * lost, whole = wood.length;
-    return TrunkLine{
-        from, to, [=, &frame](double s) {
-            const double here = radius * (1.0 - 0.8 * std::clamp(s / whole, 0.0, 1.0));
-            const glm::dvec2 at = foot + s * way;
-            return TrunkSection{frame.at(at.x, at.y, profile.at(s) + raised * here), here};
-        }};
+    const double raised = 0.72 - 0.55 * lost;
+    return TrunkLine{from, to, whole, lying.breaks(from, to), [=, &frame](double s) {
+                         const double here = radius * taper_at(wood, s);
+                         const LyingTrunk::Lying place = lying.at(s);
+                         return TrunkSection{
+                             frame.at(place.at.x, place.at.y, place.height + raised * here), here};
+                     }};
 }
 
 }  // namespace
@@ -208,7 +235,8 @@ std::optional<glm::dvec3> BearingTrunks::place(const FruitBody& body, const glm:
                              : body.height;
     // Slightly below the bark, which is uneven.
     constexpr double depth = 0.96;
-    const TrunkSection section = found->second->section(std::clamp(along, 0.0, wood->length));
+    const TrunkSection section =
+        found->second->section(std::clamp(along, 0.0, found->second->whole));
     return section.middle + depth * section.radius * out;
 }
 

@@ -504,7 +504,7 @@ class Scenery {
         const CoverField& cover = cover_on(middle_, content);
         Mesh snow;
         for (const auto& [list, detail] :
-             {std::pair{&near, TrunkDetail{}}, {&far, TrunkDetail{10, 40, 0.25, 5}}}) {
+             {std::pair{&near, TrunkDetail{}}, {&far, TrunkDetail{10, 40, 0.25, 5, false}}}) {
             content.dead_wood = *list;
             for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
                 add_single(parent, std::move(log.mesh), log.lies ? "log" : "snag",

@@ -369,7 +369,7 @@ class TileScene {
         content.dead_wood = own;
         const PlotFrame frame(content, floor, origin_step);
         const TrunkDetail detail =
-            are_thick ? TrunkDetail{10, 28, 0.6, 5} : TrunkDetail{6, 12, 0.8, 3};
+            are_thick ? TrunkDetail{10, 28, 0.6, 5, false} : TrunkDetail{6, 12, 0.8, 3, false};
         Mesh snow;
         for (PlotLog& log : logs_of(content, frame, cover, atlas_, detail)) {
             const std::size_t wood = materials_.wood({log.wood, wood_side({wood_texture_side}, 0)});

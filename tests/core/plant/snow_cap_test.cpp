@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/mesh/measure.h"
 #include "core/problems.h"
@@ -57,6 +58,17 @@ TEST(SnowCap, IsNotThereWithoutSnowNorOnSteepTrunks) {
     EXPECT_TRUE(snow_cap(none, level).positions.empty());
     const auto upright = [](double s) { return TrunkSection{{0.0, s, 0.0}, radius}; };
     EXPECT_TRUE(snow_cap(deep(0.05), upright).positions.empty());
+}
+
+TEST(SnowCap, EndsBeforeBrokenEndsOfTheTrunk) {
+    const Mesh mesh = snow_cap(deep(0.1), level);
+    // A broken end is up to 0.9 radii shorter than its trunk.
+    for (const glm::vec3& at : mesh.positions) {
+        if (glm::length(glm::vec2(at.y - 1.0F, at.z)) < 1.02F * static_cast<float>(radius))
+            continue;
+        EXPECT_GT(at.x, 0.9 * radius);
+        EXPECT_LT(at.x, length - 0.9 * radius);
+    }
 }
 
 TEST(SnowCap, OfLessCoverHasGaps) {

@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -66,8 +68,8 @@ bool lies_in(const DeadWood& log, const StandTree& tree, WorldTime time) {
         return false;
     const double trunk = 0.5 * trunk_diameter(height_at(tree, time));
     const glm::dvec2 at(metres(tree.at.x), metres(tree.at.y));
-    for (double along = 0.0; along < log.length; along += 0.05) {
-        const double own = radius_at(log, time) * (1.0 - 0.8 * along / log.length);
+    for (double along = 0.0; along < length_at(log, time); along += 0.05) {
+        const double own = radius_at(log, time) * taper_at(log, along);
         if (glm::distance(place_on(log, along), at) < own + trunk) return true;
     }
     return false;
@@ -75,10 +77,28 @@ bool lies_in(const DeadWood& log, const StandTree& tree, WorldTime time) {
 
 constexpr double area = 4.0 * block_side * block_side / 1e4;  // hectares
 
-/// Returns the volume of a dead trunk, a frustum whose top has a fifth of the radius of its foot.
+/// Returns the volume of what is left of a dead trunk, a frustum.
 double volume(const DeadWood& wood, WorldTime time) {
-    const double radius = radius_at(wood, time);
-    return pi / 3.0 * (1.0 + 0.2 + 0.04) * radius * radius * wood.length;
+    const double length = length_at(wood, time), foot = radius_at(wood, time),
+                 top = foot * taper_at(wood, length);
+    return pi / 3.0 * (foot * foot + foot * top + top * top) * length;
+}
+
+/// Returns the places of a log and of another one at which they cross, as shares of what is left of each; nothing if they
+/// lie beside each other.
+std::optional<glm::dvec2> crossing(const DeadWood& a, const DeadWood& b, WorldTime time) {
+    const auto along = [&](const DeadWood& log) {
+        return length_at(log, time) * glm::dvec2(std::cos(log.direction), std::sin(log.direction));
+    };
+    const auto cross = [](const glm::dvec2& p, const glm::dvec2& q) {
+        return p.x * q.y - p.y * q.x;
+    };
+    const glm::dvec2 p = along(a), q = along(b), between = place_on(b, 0.0) - place_on(a, 0.0);
+    const double turn = cross(p, q);
+    if (std::abs(turn) < 1e-9) return std::nullopt;
+    const glm::dvec2 at(cross(between, q) / turn, cross(between, p) / turn);
+    if (at.x < 0.0 || at.x > 1.0 || at.y < 0.0 || at.y > 1.0) return std::nullopt;
+    return at;
 }
 
 TEST(DeadWood, IsAsMuchAsInAWoodThatNobodyManages) {
@@ -156,8 +176,28 @@ TEST(DeadWood, LiesBesideTreesThatLive) {
         would += lies_in_one(turned) ? 1 : 0;
     }
     EXPECT_GT(logs, 80U);
-    EXPECT_GT(would * 8, logs) << "Hardly a log has a tree beside it.";
+    EXPECT_GT(would * 14, logs) << "Hardly a log has a tree beside it.";
     EXPECT_LT(in_trunks * 25, logs);
+}
+
+TEST(DeadWood, HardlyEverLiesAcrossAnOlderTrunk) {
+    const Block block = blocks_of(wood(), {}, 0.7);
+    const WorldTime time = time_of(90);
+    std::vector<DeadWood> logs;
+    for (const DeadWood& log : block.dead)
+        if (log.lies_at(time)) logs.push_back(log);
+    std::size_t across = 0, would = 0;
+    for (const DeadWood& log : logs)
+        for (const DeadWood& other : logs) {
+            if (log.id >= other.id) continue;
+            DeadWood turned = log;
+            turned.direction += 0.5 * pi;
+            across += crossing(log, other, time) ? 1 : 0;
+            would += crossing(turned, other, time) ? 1 : 0;
+        }
+    EXPECT_GT(would * 2, logs.size());
+    EXPECT_LT(across * 12, logs.size())
+        << "Trunks of other blocks turn without each other's knowledge.";
 }
 
 TEST(DeadWood, FallsAsTheWindBlowsWhereNothingStands) {
@@ -166,17 +206,29 @@ TEST(DeadWood, FallsAsTheWindBlowsWhereNothingStands) {
         trees_of(wood(), [](WorldPoint) { return Site{}; }, {0, 0});
     const Falls falls = falls_of(wood(), trees, site, 0.7);
     const std::array<const Falls*, 1> all = {&falls};
-    const std::vector<DeadWood> free = dead_wood_of(wood(), trees, {}, site, 0.7),
-                                among = dead_wood_of(wood(), trees, all, site, 0.7);
-    ASSERT_EQ(free.size(), among.size());
-    std::size_t turned = 0;
-    for (std::size_t i = 0; i < free.size(); ++i) {
-        DeadWood same = among[i];
-        if (same.direction != free[i].direction) ++turned;
-        same.direction = free[i].direction;
-        EXPECT_EQ(same, free[i]) << "What stands round it decides on its direction alone.";
+    std::map<std::uint64_t, DeadWood> among;
+    for (const DeadWood& one : dead_wood_of(wood(), trees, all, site, 0.7)) among[one.id] = one;
+    std::size_t turned = 0, broken = 0;
+    for (const StandTree& tree : trees) {
+        const std::vector<DeadWood> alone = dead_wood_of(wood(), {&tree, 1}, {}, site, 0.7);
+        if (alone.empty()) continue;
+        const auto nominal = std::ranges::find(falls.fallen, alone[0].id, &FallenTrunk::id);
+        ASSERT_NE(nominal, falls.fallen.end());
+        EXPECT_LT(glm::distance(place_on(alone[0], alone[0].length) - place_on(alone[0], 0.0),
+                                glm::dvec2(nominal->east, nominal->north)),
+                  1e-5);
+        DeadWood same = among.at(alone[0].id);
+        turned += same.direction != alone[0].direction ? 1 : 0;
+        broken += same.length != alone[0].length ? 1 : 0;
+        EXPECT_LE(same.length, alone[0].length);
+        EXPECT_GE(same.length, std::min(1.0, alone[0].length));
+        same.direction = alone[0].direction;
+        same.length = alone[0].length;
+        EXPECT_EQ(same, alone[0]) << "All else does not depend on what stands round it.";
     }
-    EXPECT_GT(turned * 4, free.size());
+    EXPECT_EQ(among.size(), falls.fallen.size());
+    EXPECT_GT(turned * 4, among.size());
+    EXPECT_GT(broken * 20, among.size());
 }
 
 TEST(DeadWood, IsTakenAwayOrLastsLongerAsTheParameterSays) {

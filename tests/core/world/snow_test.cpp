@@ -70,7 +70,7 @@ TEST(Snow, WhitensTheFloorAsFarAsItCoversIt) {
     const WorldBox box{0.0, 0.0, 4.0, 4.0};
     const auto white_share = [&](double cover) {
         RawImages images = brown_floor(64);
-        add_snow(images, box, cover, 5);
+        add_snow(images, box, cover, 5, {});
         const auto white = std::ranges::count_if(images.rgb[0], [](int v) { return v > 150; });
         return static_cast<double>(white) / static_cast<double>(images.rgb[0].size());
     };
@@ -79,15 +79,27 @@ TEST(Snow, WhitensTheFloorAsFarAsItCoversIt) {
     EXPECT_LT(white_share(0.5), 0.9);
     EXPECT_GT(white_share(1.0), 0.98);
     RawImages bare = brown_floor(64);
-    add_snow(bare, box, 0.0, 5);
+    add_snow(bare, box, 0.0, 5, {});
     EXPECT_EQ(bare.rgb, brown_floor(64).rgb);
+}
+
+TEST(Snow, IsNotThereAtTheFeetOfTrees) {
+    const TreeFoot foot{2.0, 2.0, 0.4};
+    RawImages images = brown_floor(65);
+    add_snow(images, {0.0, 0.0, 4.0, 4.0}, 1.0, 5, {&foot, 1});
+    const auto at = [&](std::size_t column) { return images.rgb[0][3 * (32 * 65 + column)]; };
+    EXPECT_EQ(at(32), 60) << "in the trunk";
+    EXPECT_EQ(at(35), 60) << "at its bark, 0.19 m from its middle";
+    EXPECT_GT(at(0), 150);
+    EXPECT_GT(at(64), 150);
 }
 
 TEST(Snow, IsTheSameInNeighbouringImages) {
     // The last column of the western one is the first column of the other.
+    const TreeFoot foot{1.9, 1.0, 0.5};
     RawImages west = brown_floor(33), east = brown_floor(33);
-    add_snow(west, {0.0, 0.0, 2.0, 2.0}, 0.5, 5);
-    add_snow(east, {2.0, 0.0, 4.0, 2.0}, 0.5, 5);
+    add_snow(west, {0.0, 0.0, 2.0, 2.0}, 0.5, 5, {&foot, 1});
+    add_snow(east, {2.0, 0.0, 4.0, 2.0}, 0.5, 5, {&foot, 1});
     for (std::size_t row = 0; row < 33; ++row)
         for (std::size_t c = 0; c < 3; ++c)
             EXPECT_EQ(west.rgb[0][3 * (33 * row + 32) + c], east.rgb[0][3 * 33 * row + c]);

@@ -62,7 +62,8 @@ TEST(PlotPlaces, OfBodiesOnALogDoNotDependOnThePlot) {
     body.trunk = log.id;
     // A plot at whose border the log lies, so that only its ends cross it.
     const double beside = 0.6 * radius_at(log, large.content.time);
-    for (double along = 0.3; along < 0.9 * log.length; along += 0.4) {
+    const double length = length_at(log, large.content.time);
+    for (double along = 0.3; along < 0.9 * length; along += 0.4) {
         const double x = metres(log.at.x) + along * turn.cosine,
                      y = metres(log.at.y) + along * turn.sine;
         body.at = point_at(x, y);
@@ -76,6 +77,31 @@ TEST(PlotPlaces, OfBodiesOnALogDoNotDependOnThePlot) {
     }
 }
 
+TEST(PlotPlaces, OfARottenLogAreOnMoreAndShorterPiecesThatAreStraight) {
+    const SmallWood& wood = small_wood();
+    Framed on(wood.content(0.0, 0.0, 32.0));
+    DeadWood log = wood.dead.front();
+    std::size_t before = 0;
+    for (const double lost : {0.1, 0.45, 0.8}) {
+        log.decay = -std::log(1.0 - lost) / years_between(log.died, on.content.time);
+        const auto line = trunk_line(log, on.content, on.frame);
+        ASSERT_TRUE(line);
+        EXPECT_GE(line->breaks.size(), before);
+        before = line->breaks.size();
+        std::vector<double> ends = line->breaks;
+        ends.insert(ends.begin(), line->from);
+        ends.push_back(line->to);
+        for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+            const double from = ends[i], to = ends[i + 1] - 1e-6;
+            // The axis is above that of the lower side by a part of the radius, which is linear too.
+            const glm::dvec3 middle = line->section(0.5 * (from + to)).middle;
+            const glm::dvec3 mean = 0.5 * (line->section(from).middle + line->section(to).middle);
+            EXPECT_LT(glm::distance(middle, mean), 1e-6) << lost << ", piece " << i;
+        }
+    }
+    EXPECT_GT(before, 1U);
+}
+
 TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {
     const SmallWood& wood = small_wood();
     const Framed small(wood.content()), large(wood.content(0.0, 0.0, 32.0));
@@ -84,7 +110,7 @@ TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {
                whole = trunk_line(log, large.content, large.frame);
     ASSERT_TRUE(part && whole);
     EXPECT_EQ(whole->from, 0.0);
-    EXPECT_DOUBLE_EQ(whole->to, log.length);
+    EXPECT_DOUBLE_EQ(whole->to, length_at(log, large.content.time));
     EXPECT_GT(part->from, 3.0);
     EXPECT_LT(part->to, 9.0);
     EXPECT_GE(part->section(part->from).middle.x, -2.0);
