@@ -33,12 +33,18 @@ test("configurations are valid, and what is wrong is named", (t) => {
         assert.equal(status, 2, args.join(" "));
         assert.match(stderr, what);
     };
-    refuses([], /nginx, varnish and haproxy/);
+    refuses([], /configure nginx .*--pool/);
     refuses(["apache"], /not 'apache'/);
+    assert.match(execFileSync("server/edge/configure", ["--help"], { encoding: "utf8" }), /--archive HOST:PORT\/BUCKET/);
     refuses(["nginx"], /--pool is missing/);
     refuses(["nginx", "--pool", "x=1"], /'x=1' is not allowed/);
     refuses(["nginx", "--pool", "37=host"], /'host' is not HOST:PORT/);
     refuses(["nginx", "--pool", "37=a:1;b"], /is not HOST:PORT/);
+    refuses(["nginx", "--pool", "37="], /'37=' has no HOST:PORT/);
+    refuses(["nginx", "--pool", "37=a:1,"], /'' is not HOST:PORT/);
+    refuses(["nginx", ...one, ...one], /there are two pools '37'; the second of one number is '37b'/);
+    refuses(["nginx", ...one, "--keys", keys], /--keys is not an option of nginx/);
+    refuses(["varnish", ...one, "--cache-gb", "1"], /--cache-gb is not an option of varnish/);
     refuses(["nginx", ...one, "--today", "36"], /there is no pool '36'/);
     refuses(["nginx", ...one, "--listen", "80"], /'80' is not HOST:PORT/);
     refuses(["nginx", ...one, "--cache-gb", "0"], /'0' is not a positive integer/);
@@ -77,6 +83,9 @@ test("behind nginx a replica dies twice, and every response is 200", async (t) =
     assert.ok(made - 5 <= 1.3 * seen.size, `${made} made of ${seen.size} distinct`);
     const again = await ask(edge.port, variant(0), { agent });
     assert.match(again.headers["cache-status"], /^edge; detail=HIT/);
+    assert.equal((await ask(edge.port, "/v1/none")).headers["cache-status"].split(",")[0], "edge; detail=MISS");
+    const refused = await ask(edge.port, "/v1/mushrooms/none.glb");
+    assert.equal(refused.headers["x-request-id"], JSON.parse(refused.body).instance, "The id is that of the replica's log.");
     assert.equal((await ask(edge.port, "/metrics")).status, 404);
     const range = await ask(edge.port, variant(0), { headers: { Range: "bytes=0-3" } });
     assert.equal(range.status, 206);
@@ -174,11 +183,16 @@ test("the most frequent addresses are compared before an upgrade", async (t) => 
     const cep = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none", agaric = cep.replace("boletus_edulis", "amanita_muscaria");
     const pinned = (await ask(edge.port, agaric)).headers["content-location"];
     assert.match(pinned, /&v=/);
-    for (const [target, times] of [[cep, 3], [agaric, 4], [pinned, 2], [`${cep}&age=7`, 5], ["/v1", 9], ["/v1/worlds/beech,seed=7/y0/maps/height.json?size=65", 1]])
+    const map = "/v1/worlds/beech,seed=7/y0/maps/height.json?size=65", version = new URL(pinned, "http://host").searchParams.get("v");
+    const mapPinned = map.replace("seed=7/", `seed=7,v=${version}/`);
+    for (const [target, times] of [[cep, 3], [agaric, 4], [pinned, 2], [`${cep}&age=7`, 5], ["/v1", 9], [map, 1], [mapPinned, 1], [`${cep}&key=k1&expires=9999999999&sig=x`, 1]])
         for (let i = 0; i < times; ++i) await ask(edge.port, target);
     await fleet.sleep(1300);
     const asked = execFileSync("server/edge/most_asked", [log, "3"], { encoding: "utf8" });
-    assert.equal(asked, `${agaric}\n${cep}\n/v1/worlds/beech,seed=7/y0/maps/height.json?size=65\n`);
+    assert.equal(asked, `${agaric}\n${cep}\n${map}\n`);
+    const signed = path.join(own, "signed");
+    writeFileSync(signed, `200 GET ${cep}&key=k1&expires=9999999999&sig=x id\n200 GET ${mapPinned} id\n`);
+    assert.equal(execFileSync("server/edge/most_asked", [signed], { encoding: "utf8" }), `${cep}\n${map}\n`);
     writeFileSync(list, asked);
     const url = (one) => `http://127.0.0.1:${one.port}`;
     const canary = (a, b, ...more) => spawnSync("server/edge/canary", [url(a), url(b), list, ...more], { encoding: "utf8" });
@@ -194,6 +208,9 @@ test("the most frequent addresses are compared before an upgrade", async (t) => 
     assert.match(changed.stdout, /3 compared, 1 different/);
     assert.equal(canary(before, after, "0").stdout.split("\n").at(-2), "3 compared, 0 different", "Colours are not told.");
     assert.equal(canary(before, after, "x").status, 2);
+    const silent = canary(before, { port: await fleet.freePort() });
+    assert.equal(silent.status, 2);
+    assert.match(silent.stderr, /does not respond to \/v1\/mushrooms/);
 });
 
 test("what a retired version left is served from an archive", async (t) => {
@@ -225,7 +242,7 @@ test("what a retired version left is served from an archive", async (t) => {
     t.after(() => store.close());
     t.after(() => store.closeAllConnections());
     const own = fleet.folder(t), manifest = path.join(own, "list"), out = path.join(own, "set");
-    const targets = [1, 2, 3].map((k) => `/v1/mushrooms/boletus_edulis:0.5,amanita_muscaria:0.5.glb?seed=${k}&lod=3&texture_size=128`);
+    const targets = [1, 2, 3].map((k) => `/v1/mushrooms/boletus_edulis:0.5,amanita_muscaria:0.5.glb?seed=${k}&lod=1&texture_size=512`);
     writeFileSync(manifest, `${targets.join("\n")}\n/v1/mushrooms/none.glb\n`);
     const retired = ["--atlas", otherTemplates(t)];
     const bake = (...more) => execFileSync(fleet.binary, ["bake", manifest, "--out", out, ...more, ...retired], { stdio: "pipe" });
@@ -301,6 +318,24 @@ test("Varnish shares spellings, retries a full replica and answers ranges", asyn
     requests.length = 0;
     for (let i = 0; i < 30; ++i) assert.equal((await ask(edge.port, "/v1/y", { method: "POST" })).status, 200);
     for (const name of "abc") assert.equal(requests.filter((one) => one.startsWith(name)).length, 10);
+    full = 2;
+    assert.equal((await ask(edge.port, "/full", { method: "POST", body: "{}" })).status, 200, "Another one makes it.");
+    for (const hidden of ["/metrics", "/metrics?x", "/%6detrics", "/readyz"])
+        assert.equal((await ask(edge.port, hidden)).status, 404, hidden);
+});
+
+test("Varnish makes room for a large file by dropping many small ones", async (t) => {
+    const server = http.createServer((request, response) => {
+        if (request.url === "/readyz") return response.end();
+        response.writeHead(200, { "Cache-Control": "public, max-age=3600" });
+        response.end(Buffer.alloc(request.url.startsWith("/large") ? 8e6 : 2e4, "x"));
+    });
+    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+    t.after(() => server.close());
+    t.after(() => server.closeAllConnections());
+    const edge = await fleet.varnish(t, ["--pool", `${generation}=127.0.0.1:${server.address().port}`], "16M");
+    await fleet.together(1000, 8, async (i) => assert.equal((await ask(edge.port, `/small${i}`)).status, 200));
+    for (let i = 0; i < 3; ++i) assert.equal((await ask(edge.port, `/large${i}`)).body.length, 8e6);
 });
 
 test("replicas of other threads and instructions send the same bytes", async (t) => {
@@ -363,15 +398,45 @@ test("HAProxy and a replica agree about signed addresses", async (t) => {
     }
 });
 
+test("HAProxy lets nothing through that a replica with keys would not", async (t) => {
+    const keys = path.join(fleet.folder(t), "keys");
+    writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
+    const library = (name) => ["--library", path.join(fleet.folder(t), name)];
+    const open = await fleet.replica(t, library("open")), closed = await fleet.replica(t, ["--sign-keys", keys, ...library("closed")]);
+    const edge = await fleet.haproxy(t, ["--pool", `${generation}=127.0.0.1:${open.port}`, "--keys", keys]);
+    const names = {
+        mix: "boletus_edulis", a: "boletus_edulis", b: "amanita_muscaria", preset: "birch", world: "beech", time: "y80d270", map: "height",
+        wood: "beech", image: "cap", lod: "0", level: "0", x: "0", y: "0", profile: "web", layer: "fungi", layertime: "y80d270", id: "boletus_edulis",
+    };
+    const api = JSON.parse((await ask(closed.port, "/openapi.json")).body);
+    let compared = 0, refused = 0;
+    for (const [template, methods] of Object.entries(api.paths)) {
+        if (/^\/(metrics|livez|readyz)$/.test(template)) continue;
+        const target = template.replace(/\{(\w+)\}/g, (_, name) => names[name] ?? "none");
+        for (const method of Object.keys(methods).filter((one) => /^(get|post|put|delete)$/.test(one))) {
+            const options = { method: method.toUpperCase(), ...(method === "get" ? {} : { body: "{}" }) };
+            const [by, wanted] = [await ask(edge.port, target, options), await ask(closed.port, target, options)].map(({ status }) => status === 403);
+            // Without a body that is complete a replica says what is wrong with it first.
+            if (method === "get" || wanted || /^\/v1\/(library|tokens)/.test(target)) assert.equal(by, wanted, `${method} ${target}`);
+            ++compared;
+            if (wanted) ++refused;
+        }
+    }
+    assert.ok(compared > 80 && refused > 60 && compared - refused > 15, `${refused} of ${compared}`);
+    for (const spelling of ["/v1/%6dushrooms/boletus_edulis.glb", "/v%31/mushrooms/boletus_edulis.glb", "/v1/mushrooms%2Fboletus_edulis.glb", "/%761/trees/birch.glb?lod=3"])
+        assert.equal((await ask(edge.port, spelling)).status, 403, spelling);
+    assert.equal((await ask(edge.port, "/%6detrics")).status, 404);
+});
+
 test("behind nginx each client has its budget, and a forged address changes nothing", async (t) => {
     const one = await fleet.replica(t, [
-        ...["--client-work", "1", "--client-burst", "15", "--trusted-proxies", "127.0.0.1"],
+        ...["--client-work", "1", "--client-burst", "25", "--trusted-proxies", "127.0.0.1"],
     ]);
     const edge = await fleet.nginx(t, ["--pool", `${generation}=127.0.0.1:${one.port}`]);
     const statuses = async (local, headers = {}) => {
         const out = [];
         for (let k = 0; k < 12; ++k)
-            out.push((await ask(edge.port, `/v1/mushrooms/boletus_edulis.glb?lod=2&texture_size=256&seed=${k}&age=0.${local.at(-1)}${headers.extra ?? 1}`, { local, headers })).status);
+            out.push((await ask(edge.port, `/v1/mushrooms/boletus_edulis.glb?lod=2&texture_size=1024&seed=${k}&age=0.${local.at(-1)}${headers.extra ?? 1}`, { local, headers })).status);
         return out;
     };
     const first = await statuses("127.0.0.2");

@@ -85,6 +85,8 @@ test("manifests fit the program, its version and each other", () => {
     assert.equal(args[args.indexOf("--shard") + 1], `$(JOB_COMPLETION_INDEX)/${job.spec.completions}`);
     const compose = yaml.load(textOf(path.join(deploy, "compose.yaml")));
     assert.match(compose.services.edge.command[2], new RegExp(`--pool ${generation}=replica1:8080,replica2:8080`));
+    const trusted = compose.services.replica1.command.at(-1);
+    assert.equal(trusted, compose.services.edge.networks.fleet.ipv4_address, "The edge alone names clients.");
     for (const { volumes = [] } of Object.values(compose.services))
         for (const volume of volumes.filter((one) => one.startsWith(".")))
             assert.ok(existsSync(path.join(deploy, volume.split(":")[0])), volume);
@@ -106,18 +108,23 @@ test("the edge of Kubernetes is configured by the replicas that there are", (t) 
         writeFileSync(path.join(own, name), `#!/bin/bash\n${text}\n`);
         chmodSync(path.join(own, name), 0o755);
     };
-    program("getent", '[ "$2" = sporeprint-38 ] && printf "10.1.0.%s STREAM\\n10.1.0.%s DGRAM\\n" 2 2 1 1 || echo "10.1.1.7 STREAM x"');
+    program("getent", '[ "$2" = sporeprint-38 ] && printf "10.1.0.%s STREAM\\n10.1.0.%s DGRAM\\n" 2 2 1 1 || [ "$2" = sporeprint-40 ] || echo "10.1.1.7 STREAM x"');
     program("nginx", 'cp "$2" "$2.used"');
     const script = config.data["run.sh"]
         .replaceAll("/edge/", `${root}/server/edge/`)
         .replaceAll("/tmp/", `${own}/`)
         .replaceAll("while sleep 5", "while false");
-    const run = spawnSync("bash", ["-c", script], {
-        env: { PATH: `${own}:${process.env.PATH}`, POOLS: "38 39", TODAY: "39" },
-        encoding: "utf8",
-    });
+    const started = (pools) =>
+        spawnSync("bash", ["-c", script], {
+            env: { PATH: `${own}:${process.env.PATH}`, POOLS: pools, TODAY: "39" },
+            encoding: "utf8",
+        });
+    const run = started("38 39");
     assert.ok(existsSync(path.join(own, "nginx.conf")), run.stderr);
     const conf = readFileSync(path.join(own, "nginx.conf"), "utf8");
     assert.match(conf, /default g39;/);
     for (const address of ["10.1.0.1:8080", "10.1.0.2:8080", "10.1.1.7:8080"]) assert.ok(conf.includes(`server ${address} `), address);
+    const without = started("39 40");
+    assert.equal(without.status, 0, without.stderr);
+    assert.doesNotMatch(readFileSync(path.join(own, "nginx.conf"), "utf8"), /g40/, "A pool that has no replica yet is left out.");
 });

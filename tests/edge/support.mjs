@@ -59,7 +59,7 @@ export function freePort() {
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 /** Sends a request; resolves to status, headers and body, or to status 0 if there is no response. */
-export function ask(port, target, { method = "GET", headers = {}, agent, local } = {}) {
+export function ask(port, target, { method = "GET", headers = {}, body = "", agent, local } = {}) {
     return new Promise((resolve) => {
         const begun = performance.now();
         const request = http.request(
@@ -80,7 +80,7 @@ export function ask(port, target, { method = "GET", headers = {}, agent, local }
         );
         request.on("timeout", () => request.destroy());
         request.on("error", () => resolve({ status: 0, headers: {}, body: Buffer.alloc(0), ms: performance.now() - begun }));
-        request.end();
+        request.end(body);
     });
 }
 
@@ -137,12 +137,12 @@ export async function nginx(t, options) {
     return child;
 }
 
-export async function varnish(t, options) {
+export async function varnish(t, options, memory = "64M") {
     const own = folder(t), port = await freePort();
     const file = configuredIn(path.join(own, "edge.vcl"), "varnish", options);
     const child = start("varnishd", [
-        ...["-F", "-f", file, "-a", `127.0.0.1:${port}`, "-n", path.join(own, "work"), "-s", "malloc,64M"],
-        ...["-p", "http_gzip_support=off", "-T", "none", "-j", "none"],
+        ...["-F", "-f", file, "-a", `127.0.0.1:${port}`, "-n", path.join(own, "work"), "-s", `malloc,${memory}`],
+        ...["-p", "http_gzip_support=off", "-p", "nuke_limit=100000", "-T", "none", "-j", "none"],
     ]);
     child.port = port;
     t.after(() => stop(child));
