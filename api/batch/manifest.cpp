@@ -135,7 +135,10 @@ class BatchManifest::Reader {
     }
 
     void refuse(const std::string& path, const Value& value, const std::string& allowed) {
-        problem(path, shown(value) + " is not allowed; allowed is " + allowed);
+        constexpr std::size_t most = 80;
+        std::string text = value.is_array() || value.is_object() ? dump(value) : shown(value);
+        if (text.size() > most) text = text.substr(0, most) + "...";
+        problem(path, text + " is not allowed; allowed is " + allowed);
     }
 
     void read_member(const std::string& key, const Value& value) {
@@ -153,6 +156,10 @@ class BatchManifest::Reader {
         } else if (key == "labels") {
             if (!value.is_bool()) return refuse(path, value, "true or false");
             out_.labels_ = value.as_bool();
+        } else if (key == "draws") {
+            if (!value.is_string() || (value.as_string() != "item" && value.as_string() != "round"))
+                return refuse(path, value, "\"item\" or \"round\"");
+            out_.draws_by_round_ = value.as_string() == "round";
         } else if (key == "generator") {
             if (!value.is_string() && !is_whole(value))
                 return refuse(path, value, "a version such as \"37\"");
@@ -165,7 +172,7 @@ class BatchManifest::Reader {
         } else {
             problem(path,
                     "there is no such member; there are path, count, seed, fixed, each, number, "
-                    "choice, uniform, integer, per_shard, labels, generator");
+                    "choice, uniform, integer, draws, per_shard, labels, generator");
         }
     }
 
@@ -276,13 +283,12 @@ Value BatchManifest::value_of(const Named& named, std::uint64_t number,
                               std::uint64_t combination) const {
     if (const auto* fixed = std::get_if<Value>(&named.rule)) return *fixed;
     if (const auto* each = std::get_if<Each>(&named.rule)) return each->values[combination];
-    if (const auto* from = std::get_if<Number>(&named.rule)) {
-        const std::uint64_t round = number / combinations_;
+    const std::uint64_t round = number / combinations_;
+    if (const auto* from = std::get_if<Number>(&named.rule))
         return Value(from->first + static_cast<double>(round));
-    }
+    const std::uint64_t draw = draws_by_round_ ? round : number;
     Random random(seed_, purposes_of_manifests | number_of(named.name),
-                  static_cast<std::uint32_t>(number),
-                  {static_cast<std::int32_t>(number >> 32U), 0});
+                  static_cast<std::uint32_t>(draw), {static_cast<std::int32_t>(draw >> 32U), 0});
     if (const auto* choice = std::get_if<Choice>(&named.rule))
         return choice->values[std::uint64_t{random.bits()} * choice->values.size() >> 32U];
     if (const auto* integer = std::get_if<Integer>(&named.rule)) {

@@ -33,11 +33,14 @@ struct BatchItem {
 ///     choice     lists by names, of which each item draws one value
 ///     uniform    ranges [from, to] by names, of which each item draws a number of six digits
 ///     integer    ranges [first, last] by names, of which each item draws an integer
+///     draws      "item" by itself: each item draws; "round": one draw for all combinations of `each`, as for the levels
+///                of detail of one individual
 ///     per_shard  items of a shard, 1 to 1,000,000; 1000 by itself
 ///     labels     whether there is a file of labels beside each; true by itself
 ///     generator  version of the generator that it is meant for; any by itself
 ///
-/// A draw depends on `seed`, the number of the item and the name alone, so that another name changes no other draw.
+/// A draw depends on `seed`, the number of the item or the round and the name alone, so that another name changes no other
+/// draw.
 class BatchManifest {
   public:
     /// throws  InvalidInput with all problems; their paths are JSON pointers, or "line 3" of a list
@@ -89,7 +92,7 @@ class BatchManifest {
 
     std::uint64_t count_ = 0, per_shard_ = 1000, combinations_ = 1;
     std::uint32_t seed_ = 1;
-    bool labels_ = true;
+    bool labels_ = true, draws_by_round_ = false;
     std::string generator_, digest_;
     std::vector<std::string> list_;  ///< empty for a spec
     std::string path_;

@@ -125,6 +125,9 @@ std::string layout_in(const fs::path& folder) {
 void claim(const BakeSet& set) {
     std::error_code error;
     fs::create_directories(set.folder / "aside", error);
+    if (error == std::errc::not_a_directory || error == std::errc::file_exists)
+        throw Ended{BakeEnd::wrong_usage,
+                    "--out: " + set.folder.string() + " is no folder, or is below a file"};
     if (error)
         throw std::runtime_error(set.folder.string() + " cannot be written: " + error.message());
     const fs::path path = set.folder / set_file;
@@ -288,6 +291,10 @@ BakeEnd run(const BakeCommand& command, api::Service& service, const std::string
     set.count = manifest->count();
     set.per_shard = manifest->per_shard();
     if (!command.finish) look_at_first(service, *manifest);
+    std::error_code error;
+    if (command.finish && !fs::is_directory(set.folder, error))
+        throw Ended{BakeEnd::wrong_usage,
+                    "--out: there is no folder " + set.folder.string() + " to finish"};
     claim(set);
     if (command.finish) return finish(set, threads);
     return make(

@@ -102,6 +102,23 @@ TEST(BatchManifest, DrawsByTheNumberOfTheItemAndTheNameAlone) {
               number_in(few.item(7), "age"));
 }
 
+TEST(BatchManifest, DrawsOnceForAllCombinationsOfARound) {
+    const BatchManifest manifest(
+        R"({"path":"/x","count":300,"each":{"lod":[0,1,2]},"number":{"seed":7},
+            "uniform":{"age":[0,1]},"integer":{"k":[1,1000]},"choice":{"c":["a","b"]},"draws":"round"})");
+    std::set<std::string> ages;
+    for (std::uint64_t i = 0; i < manifest.count(); i += 3) {
+        const std::string first = manifest.item(i).target;
+        for (std::uint64_t k = 1; k < 3; ++k) {
+            std::string same = manifest.item(i + k).target;
+            same.replace(same.find("lod=") + 4, 1, "0");
+            EXPECT_EQ(same, first);
+        }
+        ages.insert(first.substr(first.find("age=")));
+    }
+    EXPECT_EQ(ages.size(), 100U) << "Rounds draw anew.";
+}
+
 TEST(BatchManifest, DrawsEvenlyWithinWhatIsAllowed) {
     const BatchManifest manifest(
         R"({"path":"/x","count":20000,"uniform":{"u":[-2,6]},"integer":{"i":[-1,2],"one":[9,9]},
@@ -162,6 +179,7 @@ TEST(BatchManifest, NamesWhatIsWrong) {
         {R"({"path":"/x","count":1,"per_shard":0})", {"/per_shard"}},
         {R"({"path":"/x","count":1,"labels":1})", {"/labels"}},
         {R"({"path":"/x","count":1,"generator":{}})", {"/generator"}},
+        {R"({"path":"/x","count":1,"draws":"seed"})", {"/draws"}},
         {R"({"path":"/x","count":1,"colour":1})", {"/colour"}},
         {R"({"path":"/x{","count":1})", {"/path"}},
         {R"({"path":"/x{}","count":1})", {"/path"}},
@@ -181,6 +199,13 @@ TEST(BatchManifest, NamesWhatIsWrong) {
         {R"({"path":"/x","count":1,)", {""}},
     };
     for (const auto& [text, paths] : wrong) EXPECT_EQ(problems_of(text), paths) << text;
+    try {
+        const BatchManifest manifest(R"({"path":"/x","count":1,"uniform":{"age":[1,0.1]}})");
+        FAIL() << "A range is in its order.";
+    } catch (const InvalidInput& invalid) {
+        EXPECT_EQ(invalid.problems()[0].message,
+                  "[1,0.1] is not allowed; allowed is [from, to], two numbers in their order");
+    }
     std::string lists = R"({"path":"/x","each":{)";
     for (int i = 0; i < 40; ++i)
         lists += (i > 0 ? ",\"n" : "\"n") + std::to_string(i) + "\":[1,2,3,4]";

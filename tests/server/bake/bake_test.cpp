@@ -187,6 +187,10 @@ TEST_F(Bake, EndsWithACodeThatSaysWhy) {
     EXPECT_EQ(run("one"), 4);
     EXPECT_NE(log().find("is of another manifest, generator or layout"), std::string::npos)
         << log();
+    EXPECT_EQ(run("two", {"--layout", "files", "--finish"}), 2);
+    EXPECT_NE(log().find("there is no folder"), std::string::npos) << log();
+    EXPECT_FALSE(std::filesystem::exists(folder / "two"));
+    EXPECT_EQ(run("two", {"--layout", "files", "--shard", "1/2"}), 0) << "The other has all.";
     EXPECT_EQ(run("two", {"--layout", "files", "--finish"}), 3);
     EXPECT_EQ(run("two", {"--finish"}), 3) << "It checks what is there, whatever its layout.";
     EXPECT_EQ(run("two", {"--layout", "tar"}), 4) << "Another layout is another set.";
@@ -208,7 +212,9 @@ TEST_F(Bake, EndsWithACodeThatSaysWhy) {
     EXPECT_EQ(run("new"), 2);
     EXPECT_NE(log().find("cannot be read"), std::string::npos) << log();
     write_manifest("/v1/mushrooms/boletus_edulis.glb?lod=3\n");
-    EXPECT_EQ(run("log/below"), 1) << "A file is where the folder should be.";
+    EXPECT_EQ(run("log"), 2) << "A file is where the folder should be.";
+    EXPECT_EQ(run("log/below"), 2);
+    EXPECT_NE(log().find("is no folder, or is below a file"), std::string::npos) << log();
 }
 
 }  // namespace
