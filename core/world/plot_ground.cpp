@@ -24,6 +24,13 @@ constexpr std::array<Wave, 3> waves{{{4.0, 1.0}, {1.7, 0.5}, {0.62, 0.22}}};
 /// Deviation of gradient noise.
 constexpr double noise_deviation = 0.35;
 
+/// The ground that is raised round a trunk falls to a part of e within so many diameters, and is level after so many times
+/// that way.
+constexpr double flare_scale = 1.5, flare_end = 5.0;
+
+/// e^-flare_end.
+constexpr double flare_rest = 0.006737946999085467;
+
 /// Returns a coordinate as a multiple of 2^-20 m.
 double rounded(double metres) { return std::floor(metres * 1048576.0 + 0.5) / 1048576.0; }
 
@@ -72,13 +79,13 @@ void FloorHeights::heights_of(const Row& row, double north, std::span<const Tree
             out[i] += factor * static_cast<double>(row.noise[i]);
     }
     for (const TreeFoot& foot : feet) {
-        const double dy = north - foot.y;
-        if (std::abs(dy) >= most_flare_reach) continue;
+        const double dy = north - foot.y, scale = flare_scale * foot.diameter,
+                     reach = flare_end * scale;
+        if (std::abs(dy) >= reach) continue;
         for (std::size_t i = 0; i < x.size(); ++i) {
             const double dx = x[i] - foot.x, square = dx * dx + dy * dy;
-            if (square >= most_flare_reach * most_flare_reach) continue;
-            out[i] +=
-                0.25 * foot.diameter * exponential(-std::sqrt(square) / (1.5 * foot.diameter));
+            if (square >= reach * reach) continue;
+            out[i] += 0.25 * foot.diameter * (exponential(-std::sqrt(square) / scale) - flare_rest);
         }
     }
 }

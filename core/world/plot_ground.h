@@ -19,7 +19,7 @@ struct TreeFoot {
     double diameter = 0.3;    ///< at breast height, metres
 };
 
-/// How far the ground is raised round a trunk at most, metres.
+/// How far the ground is raised round the thickest trunk of 0.66 m, metres.
 inline constexpr double most_flare_reach = 5.0;
 
 /// Heights of the floor of a world: the ground with waves of up to 4 m and with raised ground round trunks.

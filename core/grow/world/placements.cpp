@@ -36,6 +36,7 @@ struct Request {
     const PlacementChoice& choice;
     const Atlas& atlas;
     const ExecutionContext& execution;
+    PlotContent content;               ///< of the day, of no place
     std::vector<TreeSize> tree_sizes;  ///< of the individuals of trees
     std::vector<bool> is_lateral;      ///< of each species
 
@@ -59,10 +60,9 @@ class BlockPlacements {
           block_(block),
           box_(part_in(block, request.box)),
           around_(present_round(request.world, box_of(block), request.time, request.execution)),
-          content_(content_of(request.world,
-                              {(block.x + 0.5) * block_side, (block.y + 0.5) * block_side,
-                               block_side + 2.0 * trunk_reach},
-                              request.time)) {
+          content_(request.content) {
+        content_.centre = point_at((block.x + 0.5) * block_side, (block.y + 0.5) * block_side);
+        content_.size = block_side + 2.0 * trunk_reach;
         content_.trees = around_.trees;
         content_.dead_wood = around_.dead;
         feet_ = feet_of(content_);
@@ -161,7 +161,7 @@ class BlockPlacements {
 
 /// Finds the individuals that show the trees of a world, and their sizes.
 void find_trees(Request& request, std::vector<TreeSpec>& specs) {
-    const PlotContent content = content_of(request.world, {}, request.time);
+    const PlotContent& content = request.content;
     specs.resize(content.kinds.size() * tree_shapes_of_kind);
     request.tree_sizes.resize(specs.size());
     std::vector<std::function<void()>> tasks;
@@ -179,7 +179,8 @@ void find_trees(Request& request, std::vector<TreeSpec>& specs) {
 Placements placements_in(const World& world, const WorldBox& box, WorldTime time,
                          const PlacementChoice& choice, const Atlas& atlas,
                          const ExecutionContext& execution) {
-    Request request{world, box, time, choice, atlas, execution, {}, {}};
+    Request request{world, box, time, choice, atlas, execution, content_of(world, {}, time),
+                    {},    {}};
     Placements out;
     if (choice.has(PlacementKind::tree)) find_trees(request, out.trees);
     for (const std::string& id : world.species_ids) {

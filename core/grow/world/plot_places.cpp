@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -41,35 +42,34 @@ std::optional<std::pair<double, double>> part_within(const WorldBox& box, const 
     return std::pair{first, last};
 }
 
-/// A trunk that lies: straight pieces between the places where it is broken, the shorter the further it has decayed.
+/// A trunk that lies: straight pieces between the places where it is broken, the shorter the further it has decayed. A
+/// piece is computed when somebody wants it; not thread-safe.
 class LyingTrunk {
   public:
     LyingTrunk(const FloorHeights& floor, const DeadWood& wood, WorldTime time)
-        : foot_(metres(wood.at.x), metres(wood.at.y)), length_(wood.length) {
+        : floor_(&floor),
+          foot_(metres(wood.at.x), metres(wood.at.y)),
+          length_(wood.length),
+          radius_(radius_at(wood, time)) {
         const SineCosine turn = sine_cosine(wood.direction);
         way_ = {turn.cosine, turn.sine};
-        const double radius = radius_at(wood, time), lost = mass_lost(wood, time);
+        const double lost = mass_lost(wood, time);
         double piece = sound_piece;
         for (const double further : {0.3, 0.5, 0.7})
             if (lost > further) piece *= 0.6;
         const auto pieces = static_cast<std::size_t>(std::max(1.0, std::floor(length_ / piece)));
         Random random(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 3);
         // Pieces of rotten trunks lie beside each other's line.
-        const double aside = radius * std::min(0.5, 0.8 * lost);
+        const double aside = radius_ * std::min(0.5, 0.8 * lost);
+        pieces_.resize(pieces);
+        ends_.resize(pieces + 1);
         for (std::size_t i = 0; i < pieces; ++i) {
-            const double from = length_ * static_cast<double>(i) / static_cast<double>(pieces),
-                         to = length_ * static_cast<double>(i + 1) / static_cast<double>(pieces);
-            Piece own{from, to, {}, {}, aside * random.symmetric(), aside * random.symmetric()};
-            own.up_from = around(floor, from);
-            own.up_to = around(floor, to);
-            // None is buried where the ground rises below it.
-            double buried = 0.0;
-            for (double s = from; s < to; s += step)
-                buried = std::max(buried, height(floor, s) - own.up_at(s));
-            const double raised = std::max(0.0, buried - 0.6 * radius * taper_at(wood, to));
-            own.up_from += raised;
-            own.up_to += raised;
-            pieces_.push_back(own);
+            Piece& own = pieces_[i];
+            own.from = length_ * static_cast<double>(i) / static_cast<double>(pieces);
+            own.to = length_ * static_cast<double>(i + 1) / static_cast<double>(pieces);
+            own.aside_from = aside * random.symmetric();
+            own.aside_to = aside * random.symmetric();
+            own.most_buried = 0.6 * radius_ * taper_at(wood, own.to);
         }
     }
 
@@ -78,10 +78,10 @@ class LyingTrunk {
         glm::dvec2 at;
         double height;
     };
-    [[nodiscard]] Lying at(double s) const {
-        const auto number = static_cast<double>(pieces_.size()) * s / length_;
-        const Piece& piece = pieces_[static_cast<std::size_t>(
-            std::clamp(number, 0.0, static_cast<double>(pieces_.size()) - 1.0))];
+    [[nodiscard]] Lying at(double s) {
+        const double number = static_cast<double>(pieces_.size()) * s / length_;
+        const Piece& piece = laid(static_cast<std::size_t>(
+            std::clamp(number, 0.0, static_cast<double>(pieces_.size()) - 1.0)));
         return {foot_ + s * way_ + piece.aside_at(s) * glm::dvec2(-way_.y, way_.x), piece.up_at(s)};
     }
 
@@ -95,9 +95,11 @@ class LyingTrunk {
 
   private:
     struct Piece {
-        double from, to;        ///< distances from the foot, metres
-        double up_from, up_to;  ///< heights of its ends
-        double aside_from, aside_to;
+        double from = 0.0, to = 0.0;        ///< distances from the foot, metres
+        double up_from = 0.0, up_to = 0.0;  ///< heights of its ends
+        double aside_from = 0.0, aside_to = 0.0;
+        double most_buried = 0.0;  ///< how far the ground may rise above the lower side
+        bool is_laid = false;      ///< its heights are known
         [[nodiscard]] double along(double s) const { return (s - from) / (to - from); }
         [[nodiscard]] double up_at(double s) const {
             return up_from + along(s) * (up_to - up_from);
@@ -107,27 +109,49 @@ class LyingTrunk {
         }
     };
 
-    [[nodiscard]] double height(const FloorHeights& floor, double s) const {
-        const glm::dvec2 place = foot_ + s * way_;
-        return floor.at(place.x, place.y);
+    const Piece& laid(std::size_t i) {
+        Piece& own = pieces_[i];
+        if (own.is_laid) return own;
+        own.is_laid = true;
+        own.up_from = end(i);
+        own.up_to = end(i + 1);
+        // None is buried where the ground rises below it.
+        double buried = 0.0;
+        for (double s = own.from + step; s < own.to; s += step)
+            buried = std::max(buried, ground(s) - own.up_at(s));
+        const double raised = std::max(0.0, buried - own.most_buried);
+        own.up_from += raised;
+        own.up_to += raised;
+        return own;
     }
-    /// Returns the mean height of the ground round a place of the trunk.
-    [[nodiscard]] double around(const FloorHeights& floor, double s) const {
+
+    /// Returns the mean height of the ground round an end of a piece.
+    double end(std::size_t i) {
+        if (ends_[i]) return *ends_[i];
+        const double s = i < pieces_.size() ? pieces_[i].from : length_;
         const double side = std::min({reach, s, length_ - s});
-        const auto steps = static_cast<int>(std::ceil(side / step));
-        double sum = 0.0;
-        for (int i = -steps; i <= steps; ++i)
-            sum += height(floor, s + side * (steps > 0 ? static_cast<double>(i) / steps : 0.0));
-        return sum / (2.0 * steps + 1.0);
+        double sum = ground(s);
+        if (side > 0.0)
+            sum = (sum + ground(s - side) + ground(s - 0.5 * side) + ground(s + 0.5 * side) +
+                   ground(s + side)) /
+                  5.0;
+        return ends_[i].emplace(sum);
+    }
+
+    [[nodiscard]] double ground(double s) const {
+        const glm::dvec2 place = foot_ + s * way_;
+        return floor_->at(place.x, place.y);
     }
 
     /// Length of the pieces of a sound trunk, what of the ground round the end of a piece decides on its height, and the
     /// step at which the ground is looked at, metres.
-    static constexpr double sound_piece = 8.0, reach = 0.8, step = 0.2;
+    static constexpr double sound_piece = 8.0, reach = 0.8, step = 0.4;
 
+    const FloorHeights* floor_;
     glm::dvec2 foot_, way_{1.0, 0.0};
-    double length_;
+    double length_, radius_;
     std::vector<Piece> pieces_;
+    std::vector<std::optional<double>> ends_;
 };
 
 TrunkLine line_of_snag(const DeadWood& wood, const PlotContent& content, const PlotFrame& frame) {
@@ -160,12 +184,12 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
                  to = part->second < 1.0 ? part->second * whole - inset : whole;
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
-    const LyingTrunk lying(frame.floor(), wood, content.time);
+    const auto lying = std::make_shared<LyingTrunk>(frame.floor(), wood, content.time);
     // Rotten wood sinks into the ground.
     const double raised = 0.72 - 0.55 * lost;
-    return TrunkLine{from, to, whole, lying.breaks(from, to), [=, &frame](double s) {
+    return TrunkLine{from, to, whole, lying->breaks(from, to), [=, &frame](double s) {
                          const double here = radius * taper_at(wood, s);
-                         const LyingTrunk::Lying place = lying.at(s);
+                         const LyingTrunk::Lying place = lying->at(s);
                          return TrunkSection{
                              frame.at(place.at.x, place.at.y, place.height + raised * here), here};
                      }};

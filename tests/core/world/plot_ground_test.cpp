@@ -21,9 +21,11 @@ TEST(FloorHeights, RiseRoundTrunks) {
     const Ground ground = sloping_ground(0.0, 0.0);
     const TreeFoot foot{1.0, 2.0, 0.4};
     const FloorHeights floor(ground, 1, 0.0, std::span(&foot, 1));
-    EXPECT_NEAR(floor.at(1.0, 2.0), 0.25 * 0.4, 1e-12);
-    EXPECT_NEAR(floor.at(1.6, 2.0), 0.25 * 0.4 * std::exp(-1.0), 1e-12);
-    EXPECT_EQ(floor.at(1.0 + most_flare_reach, 2.0), 0.0);
+    EXPECT_NEAR(floor.at(1.0, 2.0), 0.25 * 0.4 * (1.0 - std::exp(-5.0)), 1e-12);
+    EXPECT_NEAR(floor.at(1.6, 2.0), 0.25 * 0.4 * (std::exp(-1.0) - std::exp(-5.0)), 1e-12);
+    // It ends level, 7.5 diameters away.
+    EXPECT_NEAR(floor.at(3.999, 2.0), 0.0, 1e-5);
+    EXPECT_EQ(floor.at(4.001, 2.0), 0.0);
 }
 
 TEST(FloorHeights, HaveWavesOfTheirAmplitude) {
