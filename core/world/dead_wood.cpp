@@ -39,7 +39,10 @@ constexpr int most_falls = 16;
 constexpr double clearance = 0.1, roots = 1.3;
 
 /// Share of the time that a trunk lies after which others may lie across it: it is flat.
-constexpr double flat = 0.6;
+constexpr double flat = 0.85;
+
+/// Deviation of the directions in which trunks fall from their mean, radians.
+constexpr double deviation_of_falls = 0.75;
 
 /// A trunk that cannot fall beside everything breaks so far before what it falls on, and leaves at least so much, metres.
 constexpr double gap = 0.15, shortest = 1.0;
@@ -52,7 +55,7 @@ struct Fall {
     Random draws;        ///< those that are left
 
     /// Draws another direction.
-    void turn() { wood.direction = mean + 0.5 * draws.normal(); }
+    void turn() { wood.direction = mean + deviation_of_falls * draws.normal(); }
 };
 
 /// Returns what the death of a tree leaves as it would fall on empty ground; nothing if that is thin. Its draws belong
@@ -89,7 +92,7 @@ std::optional<Fall> fall_of(const Stand& stand, const StandTree& tree, const Fal
                     ? tree.died
                     : tree.died + static_cast<WorldTime>(wait * snag_years * ticks_of_year);
     wood.fell = std::min(wood.fell, wood.gone);
-    wood.direction = out.mean + 0.5 * deviation;
+    wood.direction = out.mean + deviation_of_falls * deviation;
     wood.length = trunk_share * height;
     wood.radius = 0.5 * foot * diameter;
     wood.decay = decay_rate(stand.params, ecology) / lasts;

@@ -11,6 +11,7 @@
 #include "core/math/noise.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/world/records.h"
 #include "core/world/weather.h"
 
 namespace sporeprint {
@@ -43,11 +44,24 @@ double snow_after(double before, const WeatherDay& day) {
     return std::max(0.0, before + day.rain * frozen - melting * std::max(day.temperature, 0.0));
 }
 
-/// Returns the share of the snow that is left at a distance from the middle of a trunk, metres.
-double share_beside(const TreeFoot& foot, double distance) {
-    const double radius = 0.55 * foot.diameter;
-    return smooth_step(radius - 0.05, std::min(radius + 0.1 + 1.2 * foot.diameter, snow_well),
-                       distance);
+/// The place round a tree where there is less snow.
+struct SnowWell {
+    double x, y, bare,
+        end;  ///< metres: its middle, and the distances to which there is none, and less
+};
+
+std::vector<SnowWell> wells_of(std::span<const TreeFoot> feet) {
+    std::vector<SnowWell> wells;
+    wells.reserve(feet.size());
+    for (const TreeFoot& foot : feet) {
+        // Some trees shelter more of the ground than others, whatever their size.
+        const WorldPoint at = point_at(foot.x, foot.y);
+        const double draw = Random(0, purposes::floor_noise, 4, {at.x, at.y}).uniform();
+        const double radius = 0.55 * foot.diameter;
+        wells.push_back({foot.x, foot.y, radius - 0.2 * draw,
+                         std::min(radius + 0.1 + (0.5 + 2.0 * draw) * foot.diameter, snow_well)});
+    }
+    return wells;
 }
 
 }  // namespace
@@ -74,6 +88,7 @@ void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_
     Random random(seed, purposes::floor_noise, 3);
     std::array<std::uint32_t, waves.size()> seeds{};
     for (std::uint32_t& one : seeds) one = random.bits();
+    const std::vector<SnowWell> wells = wells_of(feet);
     const auto side = static_cast<std::size_t>(images.side);
     const auto place = [&](double from, double to, std::size_t i) {
         const double t = static_cast<double>(i) / static_cast<double>(side - 1);
@@ -94,13 +109,14 @@ void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_
                 for (std::size_t i = 0; i < side; ++i) sum[i] += weights[k] * noise[i];
             }
             std::fill(left.begin(), left.end(), 1.0);
-            for (const TreeFoot& foot : feet) {
-                const double north = place(box.north, box.south, row) - foot.y;
-                if (std::abs(north) > snow_well) continue;
+            for (const SnowWell& well : wells) {
+                const double north = place(box.north, box.south, row) - well.y;
+                if (std::abs(north) > well.end) continue;
                 for (std::size_t i = 0; i < side; ++i) {
-                    const double east = place(box.west, box.east, i) - foot.x;
-                    if (std::abs(east) < snow_well)
-                        left[i] *= share_beside(foot, std::sqrt(east * east + north * north));
+                    const double east = place(box.west, box.east, i) - well.x;
+                    if (std::abs(east) < well.end)
+                        left[i] *= smooth_step(well.bare, well.end,
+                                               std::sqrt(east * east + north * north));
                 }
             }
             for (std::size_t i = 0; i < side; ++i) {

@@ -360,6 +360,17 @@ void add_worlds(Cases& cases) {
     for (const char* plot :
          {"plot.json", "plot.glb", "plot.glb?size=20", "plot.glb?texture_size=512"})
         add_get(cases, std::string("/v1/worlds/birch,extent=256/y80d270/") + plot);
+    const std::string birches = "/v1/worlds/birch,extent=256/", day = birches + "y80d270/";
+    for (const std::string& target : {day + "plot.png?view=aslant&width=512&height=384",
+                                      day + "plot.png?background=grey&width=256&height=256",
+                                      day + "plot.png?width=384&height=256", day + "placements.csv",
+                                      birches + "web/y80m10/ground/5/14/14.glb"})
+        cases.push_back({target, get(target), day + "plot.json"});
+    // Beside what is known: a stream of tiles, and the answer for one place, are of blocks that others use too.
+    for (const std::string layer : {"core/y80m10/trees/5/", "web/y80d270/fungi/5/"})
+        cases.push_back(
+            {birches + layer, get(birches + layer + "14/14.glb"), birches + layer + "15/14.glb"});
+    cases.push_back({"limits", get(day + "limits.json"), day + "maps/height.json"});
     add_get(cases, "/v1/worlds/beech/weather.json?year=80");
     for (const char* erosion : {"0", "0.3", "1"})
         add_get(cases, std::string("/v1/worlds/beech,terrain.erosion=") + erosion +

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -42,116 +41,113 @@ std::optional<std::pair<double, double>> part_within(const WorldBox& box, const 
     return std::pair{first, last};
 }
 
-/// A trunk that lies: straight pieces between the places where it is broken, the shorter the further it has decayed. A
-/// piece is computed when somebody wants it; not thread-safe.
+/// A trunk that lies: straight, or in as few straight pieces as the ground makes of it; a rotten one is broken in any
+/// case. It rests on the ground in a few places and spans small hollows.
 class LyingTrunk {
   public:
     LyingTrunk(const FloorHeights& floor, const DeadWood& wood, WorldTime time)
-        : floor_(&floor),
-          foot_(metres(wood.at.x), metres(wood.at.y)),
-          length_(wood.length),
-          radius_(radius_at(wood, time)) {
+        : foot_(metres(wood.at.x), metres(wood.at.y)) {
         const SineCosine turn = sine_cosine(wood.direction);
         way_ = {turn.cosine, turn.sine};
         const double lost = mass_lost(wood, time);
-        double piece = sound_piece;
-        for (const double further : {0.3, 0.5, 0.7})
-            if (lost > further) piece *= 0.6;
-        const auto pieces = static_cast<std::size_t>(std::max(1.0, std::floor(length_ / piece)));
-        Random random(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 3);
-        // Pieces of rotten trunks lie beside each other's line.
-        const double aside = radius_ * std::min(0.5, 0.8 * lost);
-        pieces_.resize(pieces);
-        ends_.resize(pieces + 1);
-        for (std::size_t i = 0; i < pieces; ++i) {
-            Piece& own = pieces_[i];
-            own.from = length_ * static_cast<double>(i) / static_cast<double>(pieces);
-            own.to = length_ * static_cast<double>(i + 1) / static_cast<double>(pieces);
-            own.aside_from = aside * random.symmetric();
-            own.aside_to = aside * random.symmetric();
-            own.most_buried = 0.6 * radius_ * taper_at(wood, own.to);
+        // Rotten wood sinks into the ground.
+        raised_ = 0.72 - 0.55 * lost;
+        step_ = wood.length / std::max(1.0, std::ceil(wood.length / most_step));
+        for (double s = 0.0; s < wood.length + 0.5 * step_; s += step_) {
+            ground_.push_back(floor.at(foot_.x + s * way_.x, foot_.y + s * way_.y));
+            radii_.push_back(radius_at(wood, time) * taper_at(wood, s));
         }
+        longest_ = lost > 0.6 ? 5.0 : 1e9;
+        ends_.push_back({0, 0.0});
+        split(0, ground_.size() - 1);
+        for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
+            const double lift = lift_of(ends_[i].at, ends_[i + 1].at);
+            for (std::size_t k = i; k < i + 2; ++k) ends_[k].lift = std::max(ends_[k].lift, lift);
+        }
+        for (End& end : ends_) end.height = level(end.at) + end.lift;
     }
 
-    /// A place of the axis if the trunk had no thickness, and its height.
-    struct Lying {
+    /// Returns the axis at a distance from the foot: its place, and its height.
+    struct Axis {
         glm::dvec2 at;
         double height;
     };
-    [[nodiscard]] Lying at(double s) {
-        const double number = static_cast<double>(pieces_.size()) * s / length_;
-        const Piece& piece = laid(static_cast<std::size_t>(
-            std::clamp(number, 0.0, static_cast<double>(pieces_.size()) - 1.0)));
-        return {foot_ + s * way_ + piece.aside_at(s) * glm::dvec2(-way_.y, way_.x), piece.up_at(s)};
+    [[nodiscard]] Axis at(double s) const {
+        const double number = std::clamp(s / step_, 0.0, static_cast<double>(ends_.back().at));
+        std::size_t next = 1;
+        while (next + 1 < ends_.size() && static_cast<double>(ends_[next].at) < number) ++next;
+        const End &from = ends_[next - 1], &to = ends_[next];
+        const double part = (number - static_cast<double>(from.at)) /
+                            static_cast<double>(std::max<std::size_t>(to.at - from.at, 1));
+        return {foot_ + s * way_, from.height + part * (to.height - from.height)};
     }
 
     /// Returns the places where the trunk is broken between two distances from its foot.
     [[nodiscard]] std::vector<double> breaks(double from, double to) const {
         std::vector<double> out;
-        for (const Piece& piece : pieces_)
-            if (piece.from > from && piece.from < to) out.push_back(piece.from);
+        for (const End& end : ends_)
+            if (const double s = static_cast<double>(end.at) * step_; s > from && s < to)
+                out.push_back(s);
         return out;
     }
 
   private:
-    struct Piece {
-        double from = 0.0, to = 0.0;        ///< distances from the foot, metres
-        double up_from = 0.0, up_to = 0.0;  ///< heights of its ends
-        double aside_from = 0.0, aside_to = 0.0;
-        double most_buried = 0.0;  ///< how far the ground may rise above the lower side
-        bool is_laid = false;      ///< its heights are known
-        [[nodiscard]] double along(double s) const { return (s - from) / (to - from); }
-        [[nodiscard]] double up_at(double s) const {
-            return up_from + along(s) * (up_to - up_from);
-        }
-        [[nodiscard]] double aside_at(double s) const {
-            return aside_from + along(s) * (aside_to - aside_from);
-        }
+    /// An end of a piece: the number of its step, how far it is raised, so that no hump buries a piece, and the height of
+    /// the axis.
+    struct End {
+        std::size_t at;
+        double lift, height = 0.0;
     };
 
-    const Piece& laid(std::size_t i) {
-        Piece& own = pieces_[i];
-        if (own.is_laid) return own;
-        own.is_laid = true;
-        own.up_from = end(i);
-        own.up_to = end(i + 1);
-        // None is buried where the ground rises below it.
-        double buried = 0.0;
-        for (double s = own.from + step; s < own.to; s += step)
-            buried = std::max(buried, ground(s) - own.up_at(s));
-        const double raised = std::max(0.0, buried - own.most_buried);
-        own.up_from += raised;
-        own.up_to += raised;
-        return own;
+    /// Returns the height of the axis over the mean ground round a step.
+    [[nodiscard]] double level(std::size_t i) const {
+        const std::size_t first = i > 0 ? i - 1 : 0, last = std::min(i + 1, ground_.size() - 1);
+        double sum = 0.0;
+        for (std::size_t k = first; k <= last; ++k) sum += ground_[k];
+        return sum / static_cast<double>(last - first + 1) + raised_ * radii_[i];
+    }
+    /// Calls a function with the height of the axis of a piece, without lift, and that of the ground at each step.
+    template <class Use>
+    void for_each_step(std::size_t from, std::size_t to, const Use& use) const {
+        const double low = level(from), high = level(to);
+        for (std::size_t i = from; i <= to; ++i) {
+            const double part = static_cast<double>(i - from) / static_cast<double>(to - from);
+            use(low + part * (high - low), ground_[i], radii_[i]);
+        }
+    }
+    /// Returns by how much a piece has to be raised, so that its axis is nowhere in the ground.
+    [[nodiscard]] double lift_of(std::size_t from, std::size_t to) const {
+        double lift = 0.0;
+        for_each_step(from, to, [&](double axis, double ground, double own) {
+            lift = std::max(lift, ground + shown * own - axis);
+        });
+        return lift;
+    }
+    /// Adds the ends of the pieces of a part.
+    void split(std::size_t from, std::size_t to) {
+        const double lift = lift_of(from, to);
+        double gap = 0.0;
+        for_each_step(from, to, [&](double axis, double ground, double own) {
+            gap = std::max(gap, axis + lift - own - ground);
+        });
+        const double length = static_cast<double>(to - from) * step_;
+        if ((gap > widest_gap && length > shortest) || length > longest_) {
+            const std::size_t middle = from + (to - from) / 2;
+            split(from, middle);
+            split(middle, to);
+        } else {
+            ends_.push_back({to, 0.0});
+        }
     }
 
-    /// Returns the mean height of the ground round an end of a piece.
-    double end(std::size_t i) {
-        if (ends_[i]) return *ends_[i];
-        const double s = i < pieces_.size() ? pieces_[i].from : length_;
-        const double side = std::min({reach, s, length_ - s});
-        double sum = ground(s);
-        if (side > 0.0)
-            sum = (sum + ground(s - side) + ground(s - 0.5 * side) + ground(s + 0.5 * side) +
-                   ground(s + side)) /
-                  5.0;
-        return ends_[i].emplace(sum);
-    }
+    /// The step at which the ground is looked at; what a trunk spans; the length of pieces that are not divided, metres;
+    /// and how far above the ground its axis is at least, in radii.
+    static constexpr double most_step = 0.6, widest_gap = 0.3, shortest = 3.0, shown = 0.1;
 
-    [[nodiscard]] double ground(double s) const {
-        const glm::dvec2 place = foot_ + s * way_;
-        return floor_->at(place.x, place.y);
-    }
-
-    /// Length of the pieces of a sound trunk, what of the ground round the end of a piece decides on its height, and the
-    /// step at which the ground is looked at, metres.
-    static constexpr double sound_piece = 8.0, reach = 0.8, step = 0.4;
-
-    const FloorHeights* floor_;
     glm::dvec2 foot_, way_{1.0, 0.0};
-    double length_, radius_;
-    std::vector<Piece> pieces_;
-    std::vector<std::optional<double>> ends_;
+    double raised_ = 0.0, step_ = most_step, longest_ = 0.0;
+    std::vector<double> ground_, radii_;  ///< at each step
+    std::vector<End> ends_;
 };
 
 TrunkLine line_of_snag(const DeadWood& wood, const PlotContent& content, const PlotFrame& frame) {
@@ -171,7 +167,7 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     constexpr double least_length = 0.25;
     const SineCosine turn = sine_cosine(wood.direction);
     const glm::dvec2 foot(metres(wood.at.x), metres(wood.at.y)), way(turn.cosine, turn.sine);
-    const double radius = radius_at(wood, content.time), lost = mass_lost(wood, content.time);
+    const double radius = radius_at(wood, content.time);
     const double whole = length_at(wood, content.time);
     const auto part = part_within(frame.box(), foot, foot + whole * way);
     if (!part) return std::nullopt;
@@ -184,14 +180,11 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
                  to = part->second < 1.0 ? part->second * whole - inset : whole;
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
-    const auto lying = std::make_shared<LyingTrunk>(frame.floor(), wood, content.time);
-    // Rotten wood sinks into the ground.
-    const double raised = 0.72 - 0.55 * lost;
-    return TrunkLine{from, to, whole, lying->breaks(from, to), [=, &frame](double s) {
-                         const double here = radius * taper_at(wood, s);
-                         const LyingTrunk::Lying place = lying->at(s);
-                         return TrunkSection{
-                             frame.at(place.at.x, place.at.y, place.height + raised * here), here};
+    const LyingTrunk lying(frame.floor(), wood, content.time);
+    return TrunkLine{from, to, whole, lying.breaks(from, to), [=, &frame](double s) {
+                         const LyingTrunk::Axis axis = lying.at(s);
+                         return TrunkSection{frame.at(axis.at.x, axis.at.y, axis.height),
+                                             radius * taper_at(wood, s)};
                      }};
 }
 
