@@ -366,7 +366,7 @@ void add_worlds(Cases& cases) {
                                       day + "plot.png?width=384&height=256", day + "placements.csv",
                                       birches + "web/y80m10/ground/5/14/14.glb"})
         cases.push_back({target, get(target), day + "plot.json"});
-    // Beside what is known: a stream of tiles, and the answer for one place, are of blocks that others use too.
+    // Beside what is known: a stream of tiles, and what limits one place, are of blocks that others use too.
     for (const std::string layer : {"core/y80m10/trees/5/", "web/y80d270/fungi/5/"})
         cases.push_back(
             {birches + layer, get(birches + layer + "14/14.glb"), birches + layer + "15/14.glb"});

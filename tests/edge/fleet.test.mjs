@@ -435,8 +435,9 @@ test("behind nginx each client has its budget, and a forged address changes noth
     const edge = await fleet.nginx(t, ["--pool", `${generation}=127.0.0.1:${one.port}`]);
     const statuses = async (local, headers = {}) => {
         const out = [];
-        for (let k = 0; k < 12; ++k)
-            out.push((await ask(edge.port, `/v1/mushrooms/boletus_edulis.glb?lod=2&texture_size=1024&seed=${k}&age=0.${local.at(-1)}${headers.extra ?? 1}`, { local, headers })).status);
+        // One of these empties the budget for so long that no pause makes up for it.
+        for (let k = 0; k < 6; ++k)
+            out.push((await ask(edge.port, `/v1/mushrooms/boletus_edulis.glb?lod=0&texture_size=1024&seed=${k}&age=0.${local.at(-1)}${headers.extra ?? 1}`, { local, headers })).status);
         return out;
     };
     const first = await statuses("127.0.0.2");

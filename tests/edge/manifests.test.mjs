@@ -111,12 +111,13 @@ test("the edge of Kubernetes is configured by the replicas that there are", (t) 
     program("getent", '[ "$2" = sporeprint-38 ] && printf "10.1.0.%s STREAM\\n10.1.0.%s DGRAM\\n" 2 2 1 1 || [ "$2" = sporeprint-40 ] || echo "10.1.1.7 STREAM x"');
     program("nginx", 'cp "$2" "$2.used"');
     const script = config.data["run.sh"]
-        .replaceAll("/edge/", `${root}/server/edge/`)
         .replaceAll("/tmp/", `${own}/`)
+        .replaceAll(" /edge/", ` ${root}/server/edge/`)
         .replaceAll("while sleep 5", "while false");
     const started = (pools) =>
         spawnSync("bash", ["-c", script], {
             env: { PATH: `${own}:${process.env.PATH}`, POOLS: pools, TODAY: "39" },
+            timeout: 20_000,
             encoding: "utf8",
         });
     const run = started("38 39");

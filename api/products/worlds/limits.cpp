@@ -173,6 +173,7 @@ Value describe(const Context& context, const LimitRequest& request, const World&
         .set("time", request.time.text())
         .set("place_m", Value(Value::Array{request.params.x, request.params.y,
                                            rounded(world.place_at(request.place()).height)}))
+        .set("axes", axes_of_places)
         .set("site", Value::object()
                          .set("light", rounded(limits.site.light))
                          .set("wetness_in_autumn", rounded(limits.site.wetness))
@@ -214,6 +215,7 @@ Value limits_schema() {
     return objects({{"world", text},
                     {"time", text},
                     {"place_m", list_of(number)},
+                    {"axes", text},
                     {"site", objects({{"light", number},
                                       {"wetness_in_autumn", number},
                                       {"wetness_today", number},

@@ -30,6 +30,19 @@ namespace sporeprint::api {
 
 namespace {
 
+/// Plots are made of so many images that none of them has an address of its own.
+enum class PlotTextures { embedded, none };
+
+constexpr const char* name(PlotTextures textures) {
+    switch (textures) {
+        case PlotTextures::embedded:
+            return "embedded";
+        case PlotTextures::none:
+            return "none";
+    }
+    return nullptr;
+}
+
 /// The query of a plot.
 struct PlotParams {
     double x = 0.0, y = 0.0;
@@ -38,7 +51,7 @@ struct PlotParams {
     double litter = 20.0;
     Text<40> layers;
     LeafInstancing instancing = LeafInstancing::none;
-    Textures textures = Textures::embedded;
+    PlotTextures textures = PlotTextures::embedded;
     Choice<256, 512, 1024, 2048> texture_size{1024};
     Compression compress = Compression::none;
     ImageFormats image_format = ImageFormats::jpg;
@@ -81,7 +94,7 @@ struct PlotParams {
               Info{.name = "instancing",
                    .doc = "How leaves and fruit bodies are repeated: as meshes and nodes, or by "
                           "EXT_mesh_gpu_instancing."});
-        visit(&P::textures, info_of<LeafParams>("textures"));
+        visit(&P::textures, Info{.name = "textures", .doc = "Images inside the file, or none."});
         visit(&P::texture_size, Info{.name = "texture_size",
                                      .unit = "texels",
                                      .doc = "Side of the images of the ground."});
@@ -252,7 +265,8 @@ PlotOptions options_of(const PlotRequest& request, Product file) {
     options.layers = request.layers;
     options.for_picture = file == Product::png;
     options.instancing = params.instancing;
-    options.textures = params.textures;
+    options.textures =
+        params.textures == PlotTextures::embedded ? Textures::embedded : Textures::none;
     options.file.compress = params.compress;
     options.file.image_format = params.image_format;
     options.file.materials = params.materials;
@@ -277,7 +291,7 @@ Cost cost_of_plot(const PlotRequest& request, Product file) {
     const auto area = static_cast<std::uint64_t>(params.size * params.size);
     cost.placed_vertices = 100'000 + area * 1000;
     cost.bytes = 4'000'000 + area * 20'000;
-    if (params.textures == Textures::embedded)
+    if (params.textures == PlotTextures::embedded)
         cost.texels = 3 * static_cast<std::uint64_t>(params.texture_size) *
                       static_cast<std::uint64_t>(params.texture_size);
     return cost;
@@ -375,6 +389,7 @@ Value describe(const Context& context, const PlotRequest& request, const WorldPl
         .set("world", world)
         .set("time", request.time.text())
         .set("bbox", Value(Value::Array{box.west, box.south, box.east, box.north}))
+        .set("axes", axes_of_places)
         .set("soil_water_mm", rounded(plot.content.soil_water, 100.0))
         .set("trees", trees_on(plot, box, time))
         .set("dead_wood", dead_on(plot, box, time))
@@ -463,6 +478,7 @@ Value plot_schema() {
     return objects({{"world", text},
                     {"time", text},
                     {"bbox", list_of(number)},
+                    {"axes", text},
                     {"soil_water_mm", number},
                     {"trees", list_of(objects({{"id", text},
                                                {"kind", text},

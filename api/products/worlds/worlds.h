@@ -18,6 +18,10 @@
 
 namespace sporeprint::api {
 
+/// What the numbers of `place_m` and `bbox` are.
+inline constexpr const char* axes_of_places =
+    "x to the east, y to the north, then the height, metres from the centre of the world";
+
 /// Longest text of a world in a URL, bytes.
 inline constexpr int longest_world = 2048;
 
