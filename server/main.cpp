@@ -419,9 +419,8 @@ struct CommandLine {
 void add_bake_command(CLI::App& app, BakeCommand& command) {
     CLI::App* const bake = app.add_subcommand(
         "bake",
-        "Make the files that a manifest lists, in shards that can be begun again, and end. Options "
-        "of "
-        "the program that concern files, such as --threads and --atlas, may follow");
+        "Make the files that a manifest lists, in shards that can be begun again, and end. "
+        "Options of the program that concern files, such as --threads and --atlas, may follow");
     bake->fallthrough();
     bake->add_option("MANIFEST", command.manifest,
                      "A spec in JSON, or a list of path and query, one a line")

@@ -46,8 +46,8 @@ double snow_after(double before, const WeatherDay& day) {
 
 /// The place round a tree where there is less snow.
 struct SnowWell {
-    double x, y, bare,
-        end;  ///< metres: its middle, and the distances to which there is none, and less
+    double x, y;       ///< middle, metres
+    double bare, end;  ///< distances to which there is none, and less, metres
 };
 
 std::vector<SnowWell> wells_of(std::span<const TreeFoot> feet) {

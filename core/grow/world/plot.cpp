@@ -388,12 +388,8 @@ RawImages floor_of(const PlotContent& content, const CoverField& cover, int side
     paint.cover = &cover;
     paint.pieces = pieces;
     RawImages images = floor_images(paint, parallel);
-    std::vector<TreeFoot> feet;
-    for (const StandTree& tree : content.trees)
-        if (tree.lives_at(content.time) && contains(grown(paint.box, snow_well), tree.at))
-            feet.push_back({metres(tree.at.x), metres(tree.at.y),
-                            trunk_diameter(height_at(tree, content.time))});
-    add_snow(images, paint.box, content.snow, content.seed, feet, parallel);
+    if (content.snow > 0.0)
+        add_snow(images, paint.box, content.snow, content.seed, feet_of(content), parallel);
     return images;
 }
 

@@ -49,13 +49,13 @@ class LyingTrunk {
         : foot_(metres(wood.at.x), metres(wood.at.y)) {
         const SineCosine turn = sine_cosine(wood.direction);
         way_ = {turn.cosine, turn.sine};
-        const double lost = mass_lost(wood, time);
+        const double lost = mass_lost(wood, time), radius = radius_at(wood, time);
         // Rotten wood sinks into the ground.
         raised_ = 0.72 - 0.55 * lost;
         step_ = wood.length / std::max(1.0, std::ceil(wood.length / most_step));
         for (double s = 0.0; s < wood.length + 0.5 * step_; s += step_) {
             ground_.push_back(floor.at(foot_.x + s * way_.x, foot_.y + s * way_.y));
-            radii_.push_back(radius_at(wood, time) * taper_at(wood, s));
+            radii_.push_back(radius * taper_at(wood, s));
         }
         longest_ = lost > 0.6 ? 5.0 : 1e9;
         ends_.push_back({0, 0.0});
@@ -77,8 +77,8 @@ class LyingTrunk {
         std::size_t next = 1;
         while (next + 1 < ends_.size() && static_cast<double>(ends_[next].at) < number) ++next;
         const End &from = ends_[next - 1], &to = ends_[next];
-        const double part = (number - static_cast<double>(from.at)) /
-                            static_cast<double>(std::max<std::size_t>(to.at - from.at, 1));
+        const double part =
+            (number - static_cast<double>(from.at)) / static_cast<double>(to.at - from.at);
         return {foot_ + s * way_, from.height + part * (to.height - from.height)};
     }
 

@@ -59,8 +59,7 @@ struct TreeSize {
 struct TrunkLine {
     double from = 0.0, to = 0.0;  ///< distances from its foot, metres
     double whole = 0.0;           ///< length of what is left of it, metres
-    std::vector<double>
-        breaks;  ///< where it is broken between the ends of the part, metres from its foot
+    std::vector<double> breaks;   ///< distances of the places where the part is broken, metres
     /// Returns the section at a distance from the foot, also beyond the part; lives as long as the frame.
     std::function<TrunkSection(double)> section;
 };
