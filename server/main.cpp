@@ -432,13 +432,19 @@ void add_bake_command(CLI::App& app, BakeCommand& command) {
                      "Make only the shards k with k mod n = i, so that n processes make all")
         ->type_name("I/N");
     bake->add_option("--layout", command.layout,
-                     "tar: an archive for each shard; files: a file for each item")
+                     "tar, the default: an archive for each shard; files: a file for each item")
         ->type_name("LAYOUT");
     bake->add_option("--progress", command.progress,
                      "line, json (an object a second) or none, to standard error")
         ->type_name("STYLE");
     bake->add_flag("--finish", command.finish,
                    "Check all shards, list what is missing, and write SHA256SUMS");
+    bake->footer(
+        "\nA shard has 1000 items unless the manifest says otherwise with per_shard.\n"
+        "Exit codes: 0 done; 1 the disk, the system or a signal ended it, begin it again;\n"
+        "2 the manifest, a flag or the folder is wrong; 3 --finish: shards are missing;\n"
+        "4 the folder is of another manifest, generator or layout; 5 --finish: complete, but\n"
+        "some items cannot be made.");
 }
 
 /// Adds `library owner add NAME` and related commands. They end the program.

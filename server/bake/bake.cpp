@@ -1,5 +1,6 @@
 #include "server/bake/bake.h"
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <cstdio>
@@ -227,7 +228,17 @@ BakeEnd finish(const BakeSet& set, std::size_t threads) {
     sums.commit();
     say(grouped(set.count) + " items in " + grouped(set.shards()) + " shards are complete" +
         (failed > 0 ? ", " + grouped(failed) + " of them failed, as their indices say" : ""));
-    return BakeEnd::complete;
+    return failed > 0 ? BakeEnd::some_failed : BakeEnd::complete;
+}
+
+/// Says so if there are more processes than shards, some of which then have nothing to do.
+void warn_of_idle(const BakeSet& set, const Share& share) {
+    if (share.of <= set.shards() || share.which != 0) return;
+    const std::uint64_t best = std::max<std::uint64_t>(1, set.count / share.of);
+    say("there are " + grouped(set.shards()) + " shards, so " +
+        grouped(share.of - set.shards()) + " of " + grouped(share.of) +
+        " processes have nothing to do; \"per_shard\": " + std::to_string(best) +
+        " in the manifest gives work to all");
 }
 
 /// Makes the shards of a share that are not there.
@@ -297,6 +308,7 @@ BakeEnd run(const BakeCommand& command, api::Service& service, const std::string
                     "--out: there is no folder " + set.folder.string() + " to finish"};
     claim(set);
     if (command.finish) return finish(set, threads);
+    warn_of_idle(set, share);
     return make(
         set, share, [&](std::uint64_t number) { return baked_item(service, *manifest, number); },
         threads, style, stop);

@@ -30,6 +30,7 @@ enum class BakeEnd : int {
     wrong_usage = 2,  ///< the manifest or a flag is wrong
     unfinished = 3,   ///< --finish: shards are missing or were damaged
     other_set = 4,    ///< the folder is of another manifest, generator or layout
+    some_failed = 5,  ///< --finish: all shards are there, but some items cannot be made
 };
 
 /// Makes the shards that are not there yet, or with `finish` checks that all are.

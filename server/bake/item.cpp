@@ -48,6 +48,17 @@ std::string file_name_of(const BakedItem& item, std::string_view disposition) {
            extension_of(item);
 }
 
+/// Returns the address of an item as a list spells it, with the version that its canonical address has in the query; the
+/// canonical one where something was drawn.
+std::string listed_of(const BakedItem& item) {
+    if (!item.drawn.is_null()) return item.url;
+    const std::size_t query = item.url.find('?'), at = item.url.find("v=", query);
+    if (query == item.url.npos || at == item.url.npos || item.target.find("v=") != item.url.npos)
+        return item.target;
+    const std::string version = item.url.substr(at, item.url.find('&', at) - at);
+    return item.target + (item.target.find('?') == item.target.npos ? '?' : '&') + version;
+}
+
 }  // namespace
 
 BakedItem baked_item(api::Service& service, const api::BatchManifest& manifest,
@@ -113,6 +124,8 @@ std::string index_line(const BakedItem& item, Value::Member place) {
         line.set("url", Value(item.url))
             .set("etag", Value(item.etag))
             .set("type", Value(item.type));
+        if (const std::string listed = listed_of(item); listed != item.url)
+            line.set("listed", Value(listed));
         if (!item.encoding.empty()) line.set("encoding", Value(item.encoding));
         line.set("sha256", Value(item.sha256)).set("bytes", Value(size_of(item.body)));
         line.set(place.first, std::move(place.second));

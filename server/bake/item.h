@@ -49,7 +49,8 @@ struct BakedItem {
 /// Returns the file of labels that stands beside an item; empty if the item is a JSON file itself.
 [[nodiscard]] std::string labels_text(const BakedItem& item);
 
-/// Returns what the index says of an item: a line of JSON without its end.
+/// Returns what the index says of an item: a line of JSON without its end. Where nothing was drawn, as in a list, it has
+/// the spelling of the manifest, with the version, where that is not the canonical address.
 ///
 /// place  the member that says where it is: "offset" or "file"
 [[nodiscard]] std::string index_line(const BakedItem& item, Value::Member place);

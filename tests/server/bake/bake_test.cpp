@@ -73,8 +73,10 @@ class Bake : public baking::InFolder {
     std::string log() const { return text_of(folder / "log"); }
 
     /// Returns what a folder has, after it was found to be complete.
-    std::map<std::string, std::string> finished(const std::string& out) const {
-        EXPECT_EQ(run(out, {"--finish"}), 0) << log();
+    ///
+    /// code  5 where some items cannot be made
+    std::map<std::string, std::string> finished(const std::string& out, int code = 5) const {
+        EXPECT_EQ(run(out, {"--finish"}), code) << log();
         return files_in(folder / out);
     }
 };
@@ -168,7 +170,7 @@ TEST_F(Bake, LaysOutAFolderOfFiles) {
     write_manifest(R"({"path":"/v1/mushrooms/{mix}.glb","fixed":{"textures":"none"},
         "each":{"mix":["boletus_edulis","amanita_muscaria"],"lod":[2,3]}})");
     ASSERT_EQ(run("game", {"--layout", "files"}), 0) << log();
-    const auto files = finished("game");
+    const auto files = finished("game", 0);
     EXPECT_EQ(files.size(), 4U + 4U) << "Four files, their index, bake.json, manifest.json, sums.";
     std::vector<Problem> problems;
     const Value list = parse(files.at("manifest.json"), problems);
@@ -179,6 +181,28 @@ TEST_F(Bake, LaysOutAFolderOfFiles) {
         EXPECT_EQ(sha256_hex(bytes.data(), bytes.size()), item.find("sha256")->as_string());
         EXPECT_NE(files.at("SHA256SUMS").find(item.find("file")->as_string()), std::string::npos);
     }
+}
+
+TEST_F(Bake, SaysThatProcessesHaveNothingToDo) {
+    write_manifest(R"({"path":"/v1/mushrooms/boletus_edulis.glb","count":4,"per_shard":2,
+        "fixed":{"lod":3,"textures":"none"},"number":{"seed":1}})");
+    EXPECT_EQ(run("set", {"--shard", "0/2"}), 0);
+    EXPECT_EQ(log(), "");
+    EXPECT_EQ(run("set", {"--shard", "0/3"}), 0);
+    EXPECT_NE(log().find("there are 2 shards, so 1 of 3 processes have nothing to do; "
+                         "\"per_shard\": 1 in the manifest gives work to all"),
+              std::string::npos)
+        << log();
+}
+
+TEST_F(Bake, RecordsHowAListSpellsAnAddress) {
+    const std::string spelled = "/v1/mushrooms/boletus_edulis.glb?textures=none&seed=2&lod=3";
+    write_manifest(spelled + "\n");
+    ASSERT_EQ(run("set"), 0) << log();
+    const auto files = finished("set", 0);
+    const std::string& index = files.at("000000.jsonl");
+    EXPECT_NE(index.find("\"listed\":\"" + spelled + "&v="), std::string::npos) << index;
+    EXPECT_NE(index.find("glb?seed=2&lod=3&"), std::string::npos) << index;
 }
 
 TEST_F(Bake, EndsWithACodeThatSaysWhy) {
