@@ -45,6 +45,30 @@ constexpr glm::vec3 tint_of_wall(0.42F, 0.36F, 0.31F), tint_of_bottom(0.25F, 0.2
 /// Depths of the rows of vertices of a wall, metres; the last one is the bottom.
 constexpr double first_depth = 0.1;
 
+/// A depth of soil, metres, and its colour, linear: litter, humus, topsoil, subsoil.
+struct Horizon {
+    float depth;
+    glm::vec3 colour;
+};
+constexpr std::array<Horizon, 6> horizons = {{{0.0F, {0.062F, 0.040F, 0.025F}},
+                                              {0.03F, {0.040F, 0.028F, 0.020F}},
+                                              {0.08F, {0.060F, 0.042F, 0.028F}},
+                                              {0.16F, {0.105F, 0.072F, 0.045F}},
+                                              {0.26F, {0.190F, 0.125F, 0.072F}},
+                                              {1e9F, {0.225F, 0.152F, 0.090F}}}};
+
+/// How far the soil stands before the walls of a slab, metres.
+constexpr float soil_thickness = 0.003F;
+
+/// Returns how bright a place of a wall is, about 1: soil is not even.
+float unevenness(std::size_t side, std::size_t i, std::size_t row) {
+    const std::uint32_t bits =
+        philox({static_cast<std::uint32_t>(side), 1, static_cast<std::uint32_t>(i),
+                static_cast<std::uint32_t>(row)},
+               {0, purposes::floor_noise})[0];
+    return 0.82F + 0.36F * static_cast<float>(bits >> 8U) / 16777216.0F;
+}
+
 }  // namespace
 
 FloorHeights::FloorHeights(const Ground& ground, std::uint32_t seed, double micro,
@@ -249,6 +273,52 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
     add_tangents(below);
     append(mesh, below);
     return mesh;
+}
+
+Mesh soil_round(const Mesh& slab, const SlabParams& params) {
+    const auto nodes = static_cast<std::uint32_t>(params.nodes), end = nodes - 1;
+    float bottom = slab.positions.front().y;
+    for (const glm::vec3& at : slab.positions) bottom = std::min(bottom, at.y);
+    // Sides as those of the slab go round: counter-clockwise from above.
+    const auto border = [&](std::size_t side, std::uint32_t i) {
+        const std::array<std::uint32_t, 4> of_side = {end - i, i * nodes, end * nodes + i,
+                                                      (end - i) * nodes + end};
+        return slab.positions[of_side[side]];
+    };
+    constexpr std::array<glm::vec3, 4> outwards{
+        glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(-1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, 1.0F),
+        glm::vec3(1.0F, 0.0F, 0.0F)};
+    const glm::vec3 corner = border(2, end);
+    const glm::vec3 wider(1.0F + soil_thickness / corner.x, 1.0F, 1.0F + soil_thickness / corner.z);
+    const auto rows = static_cast<std::uint32_t>(horizons.size());
+    Mesh soil;
+    for (std::size_t side = 0; side < 4; ++side) {
+        const auto first = static_cast<std::uint32_t>(soil.positions.size());
+        const auto add = [&](const glm::vec3& at, const glm::vec3& normal, const glm::vec3& tint) {
+            soil.positions.push_back(at);
+            soil.normals.push_back(normal);
+            soil.tints.push_back(tint);
+        };
+        // Of each place the horizons before the wall, and the upper and the lower end behind them.
+        for (std::uint32_t i = 0; i < nodes; ++i) {
+            const glm::vec3 top = border(side, i);
+            for (std::uint32_t row = 0; row < rows; ++row) {
+                const float depth = std::min(horizons[row].depth, top.y - bottom);
+                add(wider * glm::vec3(top.x, row + 1 == rows ? bottom : top.y - depth, top.z),
+                    outwards[side], unevenness(side, i, row) * horizons[row].colour);
+            }
+            add({top.x, bottom, top.z}, -outwards[side], horizons.back().colour);
+            add(top, -outwards[side], horizons.front().colour);
+        }
+        const std::uint32_t round = rows + 2;
+        for (std::uint32_t i = 0; i < end; ++i)
+            for (std::uint32_t k = 0; k < round; ++k) {
+                const std::uint32_t a = first + round * i + k, b = a + round,
+                                    c = first + round * i + (k + 1) % round, d = c + round;
+                soil.indices.insert(soil.indices.end(), {a, c, d, a, d, b});
+            }
+    }
+    return soil;
 }
 
 }  // namespace sporeprint

@@ -93,4 +93,10 @@ using GridHeights =
 /// Returns a slab whose top has other heights.
 [[nodiscard]] Mesh slab_mesh(const SlabParams& params, const GridHeights& heights);
 
+/// Returns a thin body of soil before the walls of a slab: litter, humus, topsoil and subsoil as its tints. It needs no
+/// image.
+///
+/// slab  slab_mesh() of the parameters
+[[nodiscard]] Mesh soil_round(const Mesh& slab, const SlabParams& params);
+
 }  // namespace sporeprint

@@ -49,6 +49,9 @@ func shown_file(path: String) -> Dictionary:
 		found.triangles += triangles(part.mesh)
 		for surface in part.mesh.get_surface_count():
 			var material: BaseMaterial3D = part.mesh.surface_get_material(surface)
+			# Soil has colours of vertices alone.
+			if material.resource_name == "soil":
+				continue
 			if material.albedo_texture == null or material.albedo_texture.get_width() < 1:
 				found.pictures = false
 	found["min"] = [box.position.x, box.position.y, box.position.z]

@@ -168,6 +168,7 @@ class PlotScene {
         params.texture_side = options_.texture_size;
         params.height = frame.height();
         Mesh slab = slab_mesh(params, frame.floor());
+        Mesh soil = soil_round(slab, params);
         without_images(slab);
         const std::size_t ground = materials_.ground("plot_ground", [&](ImageFormat format) {
             const RawImages painted =
@@ -176,6 +177,7 @@ class PlotScene {
             return encoded(painted, format, execution_.parallel);
         });
         add_single(std::move(slab), "plot_ground", ground, GlbRole::body);
+        add_single(std::move(soil), "plot_soil", materials_.plain("soil"), GlbRole::body);
     }
 
     void add_trees() {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -76,6 +77,25 @@ TEST(Slab, WithReliefIsValid) {
     const FloorHeights floor(ground, 3, 0.3, std::span(&foot, 1));
     const SlabParams params{{-1.0, -1.0, 1.0, 1.0}, 65, 512, 0.0, 0.4};
     expect_valid(slab_mesh(params, floor));
+}
+
+TEST(Slab, HasSoilBeforeItsWalls) {
+    const Ground ground = sloping_ground(0.4, -0.3);
+    const FloorHeights floor(ground, 3, 0.3, {});
+    const SlabParams params{{-4.0, -4.0, 4.0, 4.0}, 33, 512, 0.0, 0.4};
+    const Mesh slab = slab_mesh(params, floor), soil = soil_round(slab, params);
+    expect_valid(soil);
+    // As thin as it is, all of it is before the walls, as high as these.
+    const Bounds box = bounds(slab), own = bounds(soil);
+    EXPECT_EQ(own.min.y, box.min.y);
+    EXPECT_GT(own.max.x, box.max.x);
+    EXPECT_LT(own.max.x, box.max.x + 0.01F);
+    for (std::size_t i = 0; i < soil.positions.size(); ++i) {
+        EXPECT_GE(std::max(std::abs(soil.positions[i].x), std::abs(soil.positions[i].z)), 4.0F);
+        EXPECT_GT(soil.tints[i].r, soil.tints[i].b) << "Soil is brown.";
+        EXPECT_LT(soil.tints[i].r, 0.3F);
+    }
+    EXPECT_EQ(soil.tints.size(), soil.positions.size());
 }
 
 TEST(Slab, ThatIsSeenFromAboveIsClosedByFewerVertices) {

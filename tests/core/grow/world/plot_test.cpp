@@ -140,7 +140,8 @@ TEST(Plot, WithoutTreesAndFungiIsASlabWithGrassAndFlowers) {
     std::vector<std::string> names;
     for (const ReadNode& node : scene.nodes) names.push_back(node.name);
     // In September.
-    EXPECT_EQ(names, (std::vector<std::string>{"plot_ground", "daisy", "brown_knapweed", "grass"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"plot_ground", "plot_soil", "daisy",
+                                               "brown_knapweed", "grass"}));
 }
 
 TEST(Plot, RefusesWhatItCannotShow) {
