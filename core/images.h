@@ -56,8 +56,9 @@ constexpr const char* media_type(ImageFormat format) {
 struct RawImages {
     int side = 0;
     std::array<Bytes, 3> rgb;
+    Bytes alpha;  ///< of the base colour, a byte for each texel; empty for an opaque one
     [[nodiscard]] std::size_t bytes() const {
-        return rgb[0].size() + rgb[1].size() + rgb[2].size();
+        return rgb[0].size() + rgb[1].size() + rgb[2].size() + alpha.size();
     }
 };
 

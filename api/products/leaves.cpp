@@ -53,6 +53,12 @@ Cost Leaves::cost_of_paint(const LeafPaint& paint) {
             .leaf_row_vertices = side * vertices};
 }
 
+std::string example_needle(const Atlas& atlas) {
+    for (const LeafPreset& preset : atlas.leaves())
+        if (has_alpha(paint_of(params_of(preset)))) return preset.id.string();
+    return atlas.leaves().front().id.string();
+}
+
 namespace {
 
 Value params_schema(const Atlas&) {
@@ -130,6 +136,16 @@ constexpr Route routes[] = {
      .query_schema =
          [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
      .plan = plan_own_image<Leaves, ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/leaves/{preset}/{image}.png",
+     .id = "get_leaf_image_png",
+     .summary = "The base colour of needles, which has alpha, beside the JPEG files of their atlas.",
+     .media_type = "image/png",
+     .example = example_needle,
+     .query_schema =
+         [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
+     .plan = plan_own_image<Leaves, ImageFormat::png>},
     {.kind = RouteKind::image,
      .method = "GET",
      .pattern = "/v1/leaves/{preset}/{image}.webp",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "api/products/presets.h"
@@ -34,6 +35,9 @@ struct Leaves {
     /// Returns the cost of painting the images of a leaf.
     static Cost cost_of_painting(const LeafSpec& spec, const Atlas& atlas);
 };
+
+/// Returns the id of the first leaf whose base colour has alpha, or of the first one if none has.
+[[nodiscard]] std::string example_needle(const Atlas& atlas);
 
 extern const RouteGroup leaf_routes;
 

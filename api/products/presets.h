@@ -193,14 +193,27 @@ std::string canonical_image_address(const Atlas& atlas, const std::string& folde
                       query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
 }
 
+/// Returns whether the base colour of a paint has alpha, which JPEG files cannot have.
+template <class Paint>
+bool is_clear_in_parts(const Paint& paint) {
+    if constexpr (requires { has_alpha(paint); })
+        return has_alpha(paint);
+    else
+        return false;
+}
+
 /// Returns the URLs of the three images of an atlas, with a version token.
 template <class Kind, class Paint>
 ImageUrls preset_image_urls(const Atlas& atlas, const std::string& folder,
                             const std::string& preset, const Paint& paint,
                             const std::string& version) {
     return image_urls_of([&](ImageKind kind, ImageFormat format) {
+        const bool is_png = format == ImageFormat::jpg && kind == ImageKind::base_color &&
+                            is_clear_in_parts(paint);
         return with_version(
-            canonical_image_address<Kind>(atlas, folder, preset, kind, format, paint), version);
+            canonical_image_address<Kind>(atlas, folder, preset, kind,
+                                          is_png ? ImageFormat::png : format, paint),
+            version);
     });
 }
 
@@ -360,8 +373,20 @@ Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) 
     const auto requested =
         read_preset_surface<Kind>(atlas, call.captured[0], call.captured[1], query, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    // PNG is the format of a base colour with alpha beside JPEG files, and of nothing else.
+    const bool is_clear =
+        requested.kind == ImageKind::base_color && is_clear_in_parts(requested.paint);
+    if (Format != ImageFormat::webp && is_clear != (Format == ImageFormat::png)) {
+        call.errors.add(404, "image",
+                        in_quotes(file_of(*requested.kind, Format)) + " does not exist: this image " +
+                            (is_clear ? "has alpha" : "is opaque") + "; ask for " +
+                            file_of(*requested.kind, is_clear ? ImageFormat::png : ImageFormat::jpg) +
+                            " or " + file_of(*requested.kind, ImageFormat::webp));
+        return context.responses.problem(call.request, call.errors);
+    }
+    constexpr ImageFormat painted = Format == ImageFormat::webp ? Format : ImageFormat::jpg;
     const auto decide = [&](ValidationErrors& found) {
-        return paint_work(context, requested.paint, Kind::cost_of_paint(requested.paint), Format,
+        return paint_work(context, requested.paint, Kind::cost_of_paint(requested.paint), painted,
                           found);
     };
     std::string of = requested.preset;
@@ -378,7 +403,7 @@ Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) 
     return plan_image(context, call.request, image, decide, call.errors);
 }
 
-/// Handles GET /v1/{kind}/{preset}/{image}.jpg and .webp.
+/// Handles GET /v1/{kind}/{preset}/{image}.jpg, .png and .webp.
 template <class Kind, ImageFormat Format>
 Plan plan_own_image(RouteCall& call) {
     return plan_preset_image<Kind, Format>(

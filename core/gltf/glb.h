@@ -70,9 +70,9 @@ struct GlbMaterial {
     std::array<std::string, 3> fallback_urls = {};
     TileLooks tile_looks = {};  ///< of a material with embedded images
     GlbTransmission transmission = {};
-    /// Of an impostor: texels of the base colour with less alpha are not drawn, and the red channel of
-    /// the third image is no occlusion. 0 for images without alpha. Embedded images only.
+    /// Texels of the base colour with less alpha are not drawn; 0 for images without alpha.
     double alpha_cutoff = 0.0;
+    bool has_occlusion = true;  ///< in the red channel of the third image; that of impostors has none
     std::string extras_json = {};  ///< a JSON object; empty for none. Embedded images only.
 };
 

@@ -223,15 +223,29 @@ bool is_textured(const GlbMaterial& material) {
     return material.images != nullptr || !material.image_urls[0].empty();
 }
 
+namespace {
+
+/// Appends what says which texels are not drawn.
+void append_cutoff(std::string& json, const GlbMaterial& material) {
+    if (material.alpha_cutoff > 0.0)
+        append(json += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":",
+               static_cast<float>(material.alpha_cutoff));
+}
+
+}  // namespace
+
 std::string material_json(const GlbMaterial& material, bool extended, TextureTables& texture_tables,
                           Tables& tables, Extensions& used) {
     std::string json = "{\"name\":";
     append_quoted(json, material.name);
-    if (!is_textured(material) || material.is_external)
-        return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
+    if (!is_textured(material) || material.is_external) {
+        json += ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}";
+        if (material.is_external) append_cutoff(json, material);
+        return json +
                material_extensions_json(material, std::nullopt, extended, texture_tables, tables,
                                         used) +
                external_images_json(material) + "}";
+    }
     const std::size_t first = texture_tables.textures_of(material, tables, used);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
     if (has_base_colour_alone(material)) return json + "},\"metallicFactor\":0}}";
@@ -239,10 +253,8 @@ std::string material_json(const GlbMaterial& material, bool extended, TextureTab
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);
     append(json += "},\"occlusionTexture\":{\"index\":", first + 2);
     // What an impostor has in place of occlusion is for shaders alone.
-    json += material.alpha_cutoff > 0.0 ? ",\"strength\":0}" : "}";
-    if (material.alpha_cutoff > 0.0)
-        append(json += ",\"alphaMode\":\"MASK\",\"alphaCutoff\":",
-               static_cast<float>(material.alpha_cutoff));
+    json += material.has_occlusion ? "}" : ",\"strength\":0}";
+    append_cutoff(json, material);
     if (!material.extras_json.empty()) (json += ",\"extras\":") += material.extras_json;
     return json +
            material_extensions_json(material, first, extended, texture_tables, tables, used) + "}";

@@ -106,6 +106,7 @@ Impostor impostor_of(const std::function<void(const Extras&)>& grow, int frame_s
     impostor.cards = impostor_cards(atlas);
     impostor.box = atlas.box;
     impostor.material.alpha_cutoff = cutoff_of(atlas.base_color, atlas.side());
+    impostor.material.has_occlusion = false;
     impostor.material.extras_json = extras_of(atlas);
     const auto images = [&](ImageFormat format) {
         return std::make_shared<const ImageSet>(encoded(atlas, format, execution.parallel));

@@ -127,6 +127,12 @@ std::string image_key(const LeafPaint& paint, ImageFormat format) {
     return key_of_format(format) + "leaf " + canonical_text(paint);
 }
 
+bool has_alpha(const LeafPaint& paint) { return has_shoot(paint.venation); }
+
+double alpha_cutoff_of(const LeafPaint& paint) {
+    return has_alpha(paint) ? leaf_alpha_cutoff : 0.0;
+}
+
 std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
                                                const ExecutionContext& execution,
                                                ImageFormat format) {
@@ -172,7 +178,8 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     set_options(scene, params.file);
     const LeafPaint paint = paint_of(params);
     scene.materials.push_back({.name = leaf_material_name(spec.preset, paint, params.textures),
-                               .transmission = transmission_of_leaves(params.file)});
+                               .transmission = transmission_of_leaves(params.file),
+                               .alpha_cutoff = alpha_cutoff_of(paint)});
     const EmbeddedImages images = attach_images(
         scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
         [&](ImageFormat format) { return painted_images(paint, execution, format); });

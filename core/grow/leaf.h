@@ -42,6 +42,12 @@ namespace sporeprint {
 /// Returns the cache key of a leaf's images: equal keys, equal images.
 [[nodiscard]] std::string image_key(const LeafPaint& paint, ImageFormat format);
 
+/// Returns whether the base colour has alpha: it is then no JPEG file but PNG, also beside JPEG files.
+[[nodiscard]] bool has_alpha(const LeafPaint& paint);
+
+/// Returns the alpha below which texels of a leaf are not drawn; 0 if all are.
+[[nodiscard]] double alpha_cutoff_of(const LeafPaint& paint);
+
 /// Returns the images, cached in execution.caches or painted now.
 ///
 /// throws  InvalidInput, Cancelled

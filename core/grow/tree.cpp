@@ -508,7 +508,8 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
         const LeafPaint paint = paint_of(leaf_of(params, atlas));
         scene.materials.push_back(
             {.name = leaf_material_name(params.look.leaf.id.string(), paint, params.textures),
-             .transmission = transmission_of_leaves(params.file)});
+             .transmission = transmission_of_leaves(params.file),
+             .alpha_cutoff = alpha_cutoff_of(paint)});
         leaf_images = attach_images(
             scene.materials[1], params.textures, params.file, leaf_urls, execution,
             [&](ImageFormat format) { return painted_images(paint, execution, format); });

@@ -1,6 +1,7 @@
 #include "core/impostor/impostor_atlas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
@@ -14,6 +15,7 @@
 #include "core/impostor/fill.h"
 #include "core/math/srgb_table.h"
 #include "core/problems.h"
+#include "core/render/cutout.h"
 #include "core/render/draw_list.h"
 #include "core/render/texture.h"
 #include "core/render/visibility.h"
@@ -71,7 +73,20 @@ Visibility visible(const DrawList& list, const FrameView& view) {
             const glm::vec3 at = view.place_of(draw.placement.point(draw.mesh->positions[i]));
             corners[i] = render::snapped({at.x * samples, at.y * samples, at.z});
         }
-        found.show(d, draw.mesh->indices, corners, 0, side);
+        const DrawMaterial& material = list.materials[draw.material];
+        render::Cutouts cutouts;
+        if (!material.alpha.empty())
+            cutouts = [&](std::uint32_t first) {
+                std::array<glm::vec3, 3> places;
+                for (std::size_t i = 0; i < places.size(); ++i) {
+                    const glm::vec3& at = draw.mesh->positions[draw.mesh->indices[first + i]];
+                    places[i] = glm::vec3(
+                        glm::vec2(view.place_of(draw.placement.point(at))) * float{samples}, 1.0F);
+                }
+                return render::Cutout(draw, material, first, places,
+                                      {glm::vec2(0.5F), glm::vec2(1.0F)});
+            };
+        found.show(d, draw.mesh->indices, corners, 0, side, {}, cutouts);
     }
     return found;
 }

@@ -290,11 +290,9 @@ FarTree far_tree(const Tree& tree, const LeafStyle& style, const LeafShape& shap
     for (const Axis& axis : thickest_axes(tree, count.spikes)) add_spike(tree, axis, made.bark);
     add_tangents(made.bark.mesh);
     if (last.leaves.empty()) return made;
-    LeafShape flat = shape;
-    flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
     const std::size_t sides = sides_of_level[static_cast<std::size_t>(level)];
     const FarCount first = far_count(0, last.leaves.size());
-    made.foliage.leaf = foliage_leaf(flat, 2);
+    made.foliage.leaf = leaf_of_group(shape, 2);
     made.foliage.leaves = grouped(tree, last.leaves, last.leaf, made.foliage.leaf, first.leaves);
     if (sides > 0) {
         made.foliage.leaves =

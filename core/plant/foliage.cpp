@@ -15,6 +15,7 @@
 #include "core/math/elementary.h"
 #include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
+#include "core/plant/leaf_image.h"
 #include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
@@ -44,6 +45,9 @@ constexpr std::size_t leaves_of_block = 64;
 // from its side, where a bent one is not, and at the coarsest level leaves stand for twigs too.
 constexpr std::array<double, tree_lods> area_shares = {1.0, 1.04, 1.05, 1.09};
 constexpr double area_share_of_group = 1.05;
+
+// The same for sprays in place of shoots, whose images have wider gaps.
+constexpr double area_share_of_spray = 1.4;
 
 double square(double x) { return x * x; }
 
@@ -442,12 +446,16 @@ Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& sh
     LeafShape flat = shape;
     flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
     Foliage foliage;
-    foliage.leaf = foliage_leaf(flat, triangles, share);
+    // A leaf in place of one or two looks like them.
+    const bool stands_for_many = all.size() > 2 * count;
+    foliage.leaf = stands_for_many ? leaf_of_group(flat, triangles, share)
+                                   : foliage_leaf(flat, triangles, share);
     // The leaves that reach farthest stay alone, so that the crown keeps its extent.
     const std::span<const PlacedLeaf> alone(all.data(), farthest.count),
         others(all.data() + farthest.count, all.size() - farthest.count);
-    foliage.leaves =
-        grouped(tree, others, finest, foliage.leaf, count - farthest.count, area_share_of_group);
+    const bool are_sprays = stands_for_many && shows_shoots(shape);
+    foliage.leaves = grouped(tree, others, finest, foliage.leaf, count - farthest.count,
+                             are_sprays ? area_share_of_spray : area_share_of_group);
     foliage.leaves.insert(foliage.leaves.end(), alone.begin(), alone.end());
     keep_within(farthest.box, foliage.leaf, foliage.leaves);
     return foliage;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,6 +9,7 @@
 #include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
 #include "core/plant/lamina.h"
+#include "core/plant/leaf_image.h"
 #include "core/plant/leaf_shell.h"
 
 namespace sporeprint {
@@ -133,7 +135,14 @@ struct Model {
     LeafChart chart;
     double area;  // of the lamina, in squares of its length
     bool is_star = false;
+    const LeafPanel* card = nullptr;  // what a card shows; null for a leaf that is none
 };
+
+// Returns the place in the image of a place of a card: from -1 to 1 across, from 0 at its root to 1.
+glm::dvec2 card_texture(const LeafPanel& panel, const glm::dvec2& place, bool upper) {
+    return {(upper ? 0.0 : 0.5) + panel.middle + panel.half * place.x,
+            panel_root - panel_length * place.y};
+}
 
 // Longest side veins of a star, in edges of its middle vein: of leaflets in a plane, and of needles all round a shoot,
 // whose star would be a broad blade and not a twig.
@@ -143,6 +152,8 @@ Model model_of(const LeafShape& shape) {
     const double area = lamina_area(shape) / (shape.length * shape.length);
     if (shape.leaflets.count == 0)
         return {shape, chart_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0))), area};
+    if (shows_shoots(shape))
+        return {shape, {}, 2.0 * shoot_panel.half_breadth, false, &shoot_panel};
     Model model{star_of(shape), {}, area, true};
     // The star has the area of all leaflets as far as it can be wide, and shows the middle of the image of one.
     Venation& veins = model.shape.venation;
@@ -202,9 +213,39 @@ std::vector<glm::dvec2> mirrored(const std::vector<glm::dvec2>& half) {
     return border;
 }
 
+// Returns a card as fans about its centre.
+//
+// thickness  at the centre
+Shell card_fan(const LeafPanel& panel, const Bending& bent, double thickness,
+               std::size_t triangles) {
+    std::vector<glm::dvec2> border;
+    const std::size_t between = triangles / 4 - 2;  // corners on each long side
+    for (const double side : {1.0, -1.0})
+        for (std::size_t i = 0; i < between + 2; ++i) {
+            const double up = static_cast<double>(i) / static_cast<double>(between + 1);
+            border.emplace_back(side, side > 0.0 ? up : 1.0 - up);
+        }
+    const glm::dvec2 centre(0.0, 0.5), breadth(panel.half_breadth, 1.0);
+    Shell shell;
+    const auto count = static_cast<std::uint32_t>(border.size());
+    for (const bool upper : {true, false}) {
+        for (const glm::dvec2& place : border)
+            shell.add(bent.at(breadth * place, 0.0), card_texture(panel, place, upper));
+        shell.add(bent.at(breadth * centre, upper ? 0.5 * thickness : -0.5 * thickness),
+                  card_texture(panel, centre, upper));
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t next = (i + 1) % count, below = count + 1;
+        shell.triangles.push_back({i, next, count});
+        shell.triangles.push_back({below + next, below + i, below + count});
+    }
+    return shell;
+}
+
 Shell simplified_shell(const Model& model, const Bending& bent, std::size_t triangles,
                        Preserved preserved) {
     const LeafShape& shape = model.shape;
+    if (model.card) return card_fan(*model.card, bent, shape.thickness, triangles);
     const Outline outline = outline_of(model, triangles / 4 + 1, preserved);
     const glm::dvec2 centre = outline.centre;
     const std::vector<glm::dvec2> border = mirrored(outline.half);
@@ -278,14 +319,23 @@ Shell flat_shell(const Model& model, std::size_t triangles, double share) {
     const double slender = std::sqrt(axes.variances[first] / axes.variances[1 - first]);
     const double area = 0.5 * share * of.area;  // of one face
     // Corners of a face, along and across. The variance along a kite is a sixth of the square of
-    // half its length, along a triangle an eighteenth of that of its length; across a triangle it is
-    // a sixth of the square of half its base.
-    std::vector<glm::dvec2> corners;
+    // half its length, along a rectangle a third, along a triangle an eighteenth of that of its length;
+    // across a triangle it is a sixth of the square of half its base.
+    std::vector<glm::dvec2> corners, of_card;
     if (triangles == 2) {
         const double half_base = std::sqrt(area / (std::sqrt(3.0) * slender)),
                      length = area / half_base;
         corners = {
             {-length / 3.0, half_base}, {-length / 3.0, -half_base}, {2.0 * length / 3.0, 0}};
+        of_card = {{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}};
+    } else if (model.card) {
+        const double half_breadth = std::sqrt(0.25 * area / slender),
+                     half_length = slender * half_breadth;
+        corners = {{-half_length, half_breadth},
+                   {-half_length, -half_breadth},
+                   {half_length, -half_breadth},
+                   {half_length, half_breadth}};
+        of_card = {{1.0, 0.0}, {-1.0, 0.0}, {-1.0, 1.0}, {1.0, 1.0}};
     } else {
         const double half_breadth = std::sqrt(0.5 * area / slender),
                      half_length = slender * half_breadth;
@@ -301,10 +351,14 @@ Shell flat_shell(const Model& model, std::size_t triangles, double share) {
     const double side = across.x < 0.0 ? 1.0 : -1.0;
     Shell shell;
     for (const bool upper : {true, false})
-        for (const glm::dvec2& corner : corners)
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 corner = corners[i];
             shell.add(of.middle + corner.x * along + corner.y * across,
-                      model.chart.texture_point(
-                          {shown * side * corner.y, middle + shown * corner.x}, upper));
+                      model.card
+                          ? card_texture(*model.card, of_card[i], upper)
+                          : model.chart.texture_point(
+                                {shown * side * corner.y, middle + shown * corner.x}, upper));
+        }
     const auto count = static_cast<std::uint32_t>(corners.size());
     for (std::uint32_t i = 2; i < count; ++i) {
         shell.triangles.push_back({0, i - 1, i});
@@ -320,6 +374,18 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
     return simplified_shell(model_of(shape), bent, triangles, preserved);
 }
 
+Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share) {
+    throw_if_invalid(shape);
+    LeafShape flat = shape;
+    flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
+    Model model = model_of(flat);
+    if (model.card) {
+        model.card = &spray_panel;
+        model.area = 2.0 * spray_panel.half_breadth;
+    }
+    return flat_shell(model, triangles == 2 ? 2 : 4, share).mesh(shape.length);
+}
+
 Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {
     throw_if_invalid(shape);
     if (triangles == 2 || triangles == 4)
@@ -333,33 +399,34 @@ Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {
 
 namespace {
 
-// Half the breadth of the blade that shows a shoot, in its lengths, and how far it is folded.
-constexpr double blade_half = 0.095, blade_fold_deg = 22.0;
+// How far the card of a shoot is folded.
+constexpr double card_fold_deg = 22.0;
 
-/// Returns whether a shoot is painted beside a leaflet.
-bool is_slim(const LeafShape& leaflet) {
-    double half = 0.0;
-    for (const glm::dvec2& place :
-         border_of(lamina_of(leaflet.venation, leaf_steps(leaflet.venation, 0))))
-        half = std::max(half, std::abs(place.x));
-    return half < slim;
-}
-
-/// Returns a blade of four or eight triangles that shows a shoot.
-Shell shoot_blade(const LeafShape& shape, std::size_t triangles) {
-    LeafShape blade = shape;
-    blade.fold_deg = blade_fold_deg;
-    blade.wave = 0.0;
-    const std::vector<glm::dvec2> half =
-        triangles == 4 ? std::vector<glm::dvec2>{{0.0, 0.0}, {blade_half, 0.5}, {0.0, 1.0}}
-                       : std::vector<glm::dvec2>{
-                             {0.0, 0.0}, {0.9 * blade_half, 0.22}, {blade_half, 0.68}, {0.0, 1.0}};
-    return folded_shell(half, area_of(mirrored(half)), Bending(blade), triangles,
-                        [](const glm::dvec2& place, bool upper) {
-                            return glm::dvec2((upper ? 0.0 : 0.5) + spray_middle +
-                                                  0.9 * spray_half * place.x / blade_half,
-                                              spray_root - spray_length * place.y);
-                        });
+/// Returns a card of four triangles, or of eight that are folded along the shoot.
+Shell shoot_card(const LeafShape& shape, std::size_t triangles) {
+    LeafShape card = shape;
+    card.fold_deg = card_fold_deg;
+    card.wave = 0.0;
+    const Bending bent(card);
+    const std::vector<double> columns =
+        triangles == 4 ? std::vector<double>{1.0, -1.0} : std::vector<double>{1.0, 0.0, -1.0};
+    Shell shell;
+    const auto count = static_cast<std::uint32_t>(2 * columns.size());
+    for (const bool upper : {true, false})
+        for (const double up : {0.0, 1.0})
+            for (const double across : columns)
+                shell.add(bent.at({shoot_panel.half_breadth * across, up}, 0.0),
+                          card_texture(shoot_panel, {across, up}, upper));
+    const std::uint32_t row = count / 2;
+    for (std::uint32_t i = 0; i + 1 < row; ++i) {
+        const std::array<std::array<std::uint32_t, 3>, 2> quad = {
+            {{i, row + i, row + i + 1}, {i, row + i + 1, i + 1}}};
+        for (const auto& [a, b, c] : quad) {
+            shell.triangles.push_back({a, b, c});
+            shell.triangles.push_back({count + a, count + c, count + b});
+        }
+    }
+    return shell;
 }
 
 /// Appends a shell, turned by a right angle about the line from its root to its tip.
@@ -389,11 +456,10 @@ Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles) {
                          Bending(shape), triangles, [&](const glm::dvec2& place, bool upper) {
                              return model.chart.texture_point(place, upper);
                          });
-    } else if (shape.leaflets.count > 0 && shape.leaflets.turn_deg != 180.0 &&
-               (is_blade || triangles == 12 || triangles == 16) && is_slim(leaflet_of(shape))) {
-        folded = shoot_blade(shape, std::min<std::size_t>(triangles, 8));
-        // A second blade stands square to the first.
-        if (!is_blade) append_crossed(folded, shoot_blade(shape, triangles - 8));
+    } else if (shows_shoots(shape) && (is_blade || triangles == 12 || triangles == 16)) {
+        folded = shoot_card(shape, std::min<std::size_t>(triangles, 8));
+        // A second card stands square to the first.
+        if (!is_blade) append_crossed(folded, shoot_card(shape, triangles - 8));
     }
     return folded.triangles.empty() ? foliage_leaf(shape, triangles) : folded.mesh(shape.length);
 }

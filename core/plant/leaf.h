@@ -183,13 +183,19 @@ inline constexpr std::size_t most_foliage_triangles = 16;
 /// kite on either face, of two one triangle: they have the area and the middle of the leaf of most
 /// triangles and lie in its plane, as slender as it is by the variances of its points, since seen
 /// from far away a leaf is a spot. They need not reach from its root to its tip. A compound leaf is a
-/// star of the area of its leaflets.
+/// star of the area of its leaflets; a shoot of needles is a card, of which its image shows the needles.
 ///
 /// triangles  2, 4, 8, 12 or 16
 /// share      area of a leaf of two or four triangles by that of the lamina, greater than 0
 /// throws     InvalidInput with all that check() reports, or for another number of triangles
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
                                 std::size_t triangles = most_foliage_triangles, double share = 1.0);
+
+/// Returns the leaf that stands for a group of leaves: the flat foliage_leaf(); for shoots of needles the card of
+/// a spray, of two triangles as far as these show it.
+///
+/// triangles  2 or 4
+[[nodiscard]] Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share = 1.0);
 
 /// Returns the area of the lamina in its plane, of all leaflets of a compound one; square metres.
 [[nodiscard]] double lamina_area(const LeafShape& shape);

@@ -181,6 +181,9 @@ double mark_at(double marks, double blotch, double cell) {
 // The coordinates of a place beyond the border.
 constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
 
+// Half the breadth of a needle, in its lengths, beside which there is space for a shoot.
+constexpr double slim = 0.045;
+
 // Returns half the breadth of a lamina, in its lengths.
 double half_breadth(const Lamina& lamina) {
     double half = 0.0;
@@ -238,7 +241,8 @@ class LeafPainter {
         blade.homothety = 1.0;
         blade.affinity = 0.9;
         young_ = colour_map_.at(blade, autumn_);
-        has_spray_ = half_breadth(sampler_.lamina()) < slim;
+        has_panels_ = half_breadth(sampler_.lamina()) < slim;
+        if (has_panels_) images_.alpha.assign(count_ * count_, opaque);
         find_lamina_tiles();
         const LeafColourMap::Faces beyond = colour_map_.at(beyond_lamina, autumn_);
         for (const bool upper : {true, false}) {
@@ -333,37 +337,21 @@ class LeafPainter {
         if (span.last == half) outer(lower + 3 * (half - 1), half - 1, slope(half - 2), -1.0);
     }
 
-    // Paints a shoot of needles beside a needle: three layers of needles on either side of a twig, the
-    // lower ones dark.
-    void spray_row(std::size_t y) {
-        if (!has_spray_) return;
-        const auto side = static_cast<double>(count_);
-        const double along = (spray_root - (static_cast<double>(y) + 0.5) / side) / spray_length;
-        if (along < -0.02 || along > 1.02) return;
-        const auto first = static_cast<std::size_t>((spray_middle - spray_half) * side),
-                   last = static_cast<std::size_t>((spray_middle + spray_half) * side);
-        for (std::size_t x = first; x < last; ++x) {
-            Spray sum;
-            const int points = count_ < 1024 ? 2 : 1;
-            for (int i = 0; i < points * points; ++i) {
-                const int row = i / points, column = i % points;
-                const double dx = (column + 0.5) / points - 0.5, dy = (row + 0.5) / points - 0.5;
-                const Spray one = spray_at(
-                    along + dy / (side * spray_length),
-                    ((static_cast<double>(x) + 0.5 + dx) / side - spray_middle) / spray_half);
-                sum.upper += one.upper;
-                sum.lower += one.lower;
-                sum.tilt += one.tilt;
-                sum.open += one.open;
-            }
-            const double share = 1.0 / (points * points);
-            const double rough = 0.55 + 0.2 * autumn_, tilt = share * sum.tilt,
-                         up = std::sqrt(1.0 - tilt * tilt);
-            const std::size_t at = y * count_ + x, below = at + count_ / 2;
-            put_texel(at, painted_texel({share * sum.upper, share * sum.open, rough}));
-            put_texel(below, painted_texel({share * sum.lower, share * sum.open, rough + 0.15}));
-            put_normals(&images_.rgb[1][3 * at], &images_.rgb[1][3 * below], 0.35 * tilt, tilt, up);
-        }
+    // Paints a shoot of needles, and a spray of shoots, beside a needle.
+    void panel_row(std::size_t y) {
+        if (!has_panels_) return;
+        // What is beside them is clear too, as far as smaller copies of the image blend it in.
+        constexpr double first_clear = 0.11, last_clear = 0.50, before = 0.05;
+        const double along = (panel_root - (static_cast<double>(y) + 0.5) / side()) / panel_length;
+        if (along < -before || along > 1.0 + before) return;
+        for (std::size_t x = column(first_clear); x < column(last_clear); ++x)
+            for (const std::size_t at : {y * count_ + x, y * count_ + x + count_ / 2})
+                images_.alpha[at] = 0;
+        paint_panel(y, along, shoot_panel, [this](double up, double across) {
+            return shoot_at(up, across, 1.0);
+        });
+        paint_panel(y, along, spray_panel,
+                    [this](double up, double across) { return spray_at(up, across); });
     }
 
     [[nodiscard]] RawImages take() { return std::move(images_); }
@@ -373,6 +361,7 @@ class LeafPainter {
     static constexpr std::array<float, 2> features = {7.0F, 60.0F};
 
     static constexpr std::size_t most_points = 4;
+    static constexpr std::uint8_t opaque = 255;
 
     // Width of the painted margin around the lamina, in its lengths: as much as mipmaps of a
     // quarter of the side blend in. Beyond it the image is constant. The margin is found by tiles.
@@ -386,9 +375,10 @@ class LeafPainter {
 
     // A point of the picture of a shoot: colours of both sides, slope along the shoot, and how far light
     // comes to it.
-    struct Spray {
+    struct ShootPoint {
         glm::dvec3 upper{0.0}, lower{0.0};
         double tilt = 0.0, open = 0.0;
+        bool is_needle = true;  ///< or the twig
     };
 
     // Needles of a layer: how many along a shoot, how far their tips are ahead of their roots, how far
@@ -401,15 +391,19 @@ class LeafPainter {
                                                     Layer{37.0, 0.085, 0.92, 0.26, 1.40, 31},
                                                     Layer{30.0, 0.110, 0.62, 0.25, 1.85, 77}};
 
-    /// Returns a point of the picture of a shoot.
+    /// Returns a point of the picture of a shoot where no needle is.
+    [[nodiscard]] ShootPoint between_needles() const {
+        return {0.7 * needle_.upper, 0.7 * needle_.lower, 0.0, 0.6, false};
+    }
+
+    /// Returns a point of the picture of a shoot: three layers of needles on either side of a twig, the lower
+    /// ones dark.
     ///
     /// along   from its root, 0, to its tip, 1
     /// across  -1..1
-    [[nodiscard]] Spray spray_at(double along, double across) const {
-        Spray seen;
-        seen.upper = 0.28 * needle_.upper;
-        seen.lower = 0.30 * needle_.lower;
-        seen.open = 0.35;
+    /// dense   number of needles, by that of a whole shoot
+    [[nodiscard]] ShootPoint shoot_at(double along, double across, double dense) const {
+        ShootPoint seen = between_needles();
         const double out = std::abs(across);
         const auto put = [&](const glm::dvec3& upper, const glm::dvec3& lower, double tilt,
                              double open) {
@@ -420,13 +414,17 @@ class LeafPainter {
             if (k + 1 == layers.size() && out < 0.05 * (1.1 - along))
                 put(0.8 * petiole_, 0.8 * petiole_, 0.0, 0.7);
             // Two needles can meet at a point, since each leans by itself.
-            const double nearest = (along - layer.ahead * out) * layer.count;
+            const double nearest = (along - layer.ahead * out / std::sqrt(dense)) * layer.count * dense;
             for (int next = -1; next <= 1; ++next) {
                 const double index = std::floor(nearest) + next;
                 const glm::dvec2 own =
                     cell_middle(static_cast<int>(index), across < 0.0 ? 1 : 2, layer.salt + seed_);
                 const double moved = own.x - std::floor(own.x), drawn = own.y - std::floor(own.y);
-                const double reach = layer.length * (0.72 + 0.28 * drawn);
+                // Needles are shorter at both ends of a shoot.
+                const double root = (index + 0.5) / (layer.count * dense);
+                const double end = std::min({1.0, 0.45 + 6.0 * root, 7.0 * (1.0 - root)});
+                const double reach = layer.length * (0.72 + 0.28 * drawn) * end;
+                if (reach <= 0.0) continue;
                 const double t = out / reach;
                 if (t >= 1.0) continue;
                 const double lean = 0.5 * (drawn - 0.5) * t;
@@ -444,6 +442,83 @@ class LeafPainter {
             }
         }
         return seen;
+    }
+
+    /// Returns a point of the picture of a spray: shoots on either side of one in the middle, shorter towards its
+    /// tip.
+    ///
+    /// along, across  as of a shoot
+    [[nodiscard]] ShootPoint spray_at(double along, double across) const {
+        constexpr int shoots = 6;  // on each side
+        constexpr double half = 0.047, longest = 0.40, dense_side = 0.4;
+        static const SineCosine open = sine_cosine(52.0 * pi / 180.0);
+        const double x = across * spray_panel.half_breadth, out = std::abs(x);
+        ShootPoint seen = between_needles();
+        for (int k = 0; k < shoots; ++k) {
+            const glm::dvec2 own = cell_middle(k, x < 0.0 ? 3 : 4, 11 + seed_);
+            const double drawn = own.x - std::floor(own.x);
+            const double root = 0.88 * (k + (x < 0.0 ? 0.05 : 0.55)) / shoots,
+                         length = longest * (0.4 + 0.6 * (1.0 - root)) * (0.75 + 0.25 * drawn);
+            const double up = along - root, t = (out * open.sine + up * open.cosine) / length;
+            const double off = (up * open.sine - out * open.cosine) / half;
+            if (t < 0.0 || t > 1.0 || std::abs(off) > 1.0) continue;
+            const ShootPoint one = shoot_at(t, off, dense_side);
+            if (one.is_needle) seen = one;
+        }
+        if (out < half) {
+            const ShootPoint one = shoot_at(along, x / half, 1.0);
+            if (one.is_needle) seen = one;
+        }
+        return seen;
+    }
+
+    [[nodiscard]] double side() const { return static_cast<double>(count_); }
+    [[nodiscard]] std::size_t column(double at) const {
+        return static_cast<std::size_t>(at * side());
+    }
+
+    /// Paints a row of a panel.
+    ///
+    /// point  returns what is at a place along and across what it shows
+    template <class Point>
+    void paint_panel(std::size_t y, double along, const LeafPanel& panel, const Point& point) {
+        const int points = count_ < 1024 ? 2 : 1;
+        const std::size_t last = column(panel.middle + panel.half);
+        for (std::size_t x = column(panel.middle - panel.half); x < last; ++x) {
+            ShootPoint sum{};
+            double covered = 0.0;
+            for (int i = 0; i < points * points; ++i) {
+                const double dx = (i % points + 0.5) / points - 0.5,
+                             dy = (i / points + 0.5) / points - 0.5;
+                const ShootPoint one =
+                    point(along + dy / (side() * panel_length),
+                          ((static_cast<double>(x) + 0.5 + dx) / side() - panel.middle) /
+                              panel.half);
+                if (!one.is_needle) continue;
+                covered += 1.0;
+                sum.upper += one.upper;
+                sum.lower += one.lower;
+                sum.tilt += one.tilt;
+                sum.open += one.open;
+            }
+            // What is clear has the colour of needles, which smaller copies blend in.
+            if (covered == 0.0) {
+                sum = between_needles();
+            } else {
+                sum.upper /= covered;
+                sum.lower /= covered;
+                sum.tilt /= covered;
+                sum.open /= covered;
+            }
+            const double rough = 0.55 + 0.2 * autumn_, up = std::sqrt(1.0 - sum.tilt * sum.tilt);
+            const std::size_t at = y * count_ + x, below = at + count_ / 2;
+            put_texel(at, painted_texel({sum.upper, sum.open, rough}));
+            put_texel(below, painted_texel({sum.lower, sum.open, rough + 0.15}));
+            put_normals(&images_.rgb[1][3 * at], &images_.rgb[1][3 * below], 0.35 * sum.tilt,
+                        sum.tilt, up);
+            images_.alpha[at] = images_.alpha[below] =
+                static_cast<std::uint8_t>(opaque * covered / (points * points));
+        }
     }
 
     // A line of sample points: its position, its noise from a point on, and the state of the
@@ -624,7 +699,7 @@ class LeafPainter {
     double share_;        // weight of a point in its texel
     glm::dvec3 petiole_{0.0};
     LeafColourMap::Faces needle_, young_;       // colours of a needle and of its tip
-    bool has_spray_ = false;                    // whether a shoot is painted beside a needle
+    bool has_panels_ = false;                    // whether shoots are painted beside a needle
     std::vector<double> columns_;               // x in the plane of the lamina, by point
     std::array<std::vector<float>, 2> across_;  // the same in units of the noise lattice
     std::size_t tile_;                          // texels across
@@ -636,6 +711,15 @@ class LeafPainter {
 };
 
 }  // namespace
+
+bool has_shoot(const Venation& venation) {
+    return half_breadth(lamina_of(venation, leaf_steps(venation, 0))) < slim;
+}
+
+bool shows_shoots(const LeafShape& shape) {
+    return shape.leaflets.count > 0 && shape.leaflets.turn_deg != 180.0 &&
+           has_shoot(shape.venation);
+}
 
 RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double autumn,
                       std::uint32_t seed, int side, const Parallel& parallel) {
@@ -650,7 +734,7 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
     LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side));
     for_each_row(side, parallel, [&](std::size_t y) { painter.colour_row(y); });
     for_each_row(side, parallel, [&](std::size_t y) { painter.normal_row(y); });
-    for_each_row(side, parallel, [&](std::size_t y) { painter.spray_row(y); });
+    for_each_row(side, parallel, [&](std::size_t y) { painter.panel_row(y); });
     return painter.take();
 }
 

@@ -8,13 +8,26 @@
 
 namespace sporeprint {
 
+/// Returns whether the image of a leaf, which is then a needle, shows a shoot of such needles beside it, and
+/// a spray of shoots.
+[[nodiscard]] bool has_shoot(const Venation& venation);
+
+/// Returns whether the foliage of trees shows a compound leaf by the picture of a shoot: its leaflets are
+/// needles that stand all round it.
+[[nodiscard]] bool shows_shoots(const LeafShape& shape);
+
+/// Texels of leaves with less alpha are not drawn. Measured: of smaller copies of the picture of a shoot the
+/// same share of the area is seen then.
+inline constexpr double leaf_alpha_cutoff = 0.4;
+
 /// Paints base colour, normal (+Y up) and occlusion-roughness-metalness.
 ///
 /// autumn   0: summer; 0.5: turning; 1: fallen
 /// seed     selects the blotches of this leaf
 /// side     16..2048 texels, a power of two
 /// returns  three RGB images, painted slightly beyond the border and constant from there on, so
-///          that mipmaps do not bleed in
+///          that mipmaps do not bleed in; with alpha where has_shoot(): between the needles of
+///          shoots it is 0
 /// throws   InvalidInput with all that check() reports, or for another side (path "/side")
 /// cost     O(side^2)
 [[nodiscard]] RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette,

@@ -107,18 +107,23 @@ enum class Preserved {
 [[nodiscard]] Shell foliage_shell(const LeafShape& shape, const Bending& bent,
                                   std::size_t triangles, Preserved preserved);
 
-/// Where the image of a needle shows a whole shoot of such needles beside it: its root and half breadth
-/// and its length in texture lengths, as drawn in the left half for the upper face.
-inline constexpr double spray_middle = 0.31, spray_half = 0.17, spray_root = 0.925,
-                        spray_length = 0.90;
+/// A part of the image of a needle that shows more than it: its middle and half its breadth in texture lengths,
+/// in the left half for the upper face.
+struct LeafPanel {
+    double middle, half;
+    double half_breadth;  ///< of what it shows, in its lengths
+};
 
-/// Half the breadth of a needle, in its lengths, beside which there is space for a shoot.
-inline constexpr double slim = 0.045;
+/// A shoot of needles, and a spray: a twig with shoots on either side.
+inline constexpr LeafPanel shoot_panel{0.205, 0.085, 0.115}, spray_panel{0.395, 0.095, 0.34};
+
+/// Root and length of both in texture lengths.
+inline constexpr double panel_root = 0.925, panel_length = 0.90;
 
 /// Returns the leaf of a tree at its finest level: a simple leaf of four or eight triangles is folded
 /// along its middle vein, with two or four corners beside it, and bent, where foliage_leaf() is flat or
-/// has a corner less on either side; a shoot of needles that stand all round is a blade that shows the
-/// picture of a shoot. All others are those of foliage_leaf().
+/// has a corner less on either side; the card of a shoot is folded, or two cards stand square to each
+/// other. All others are those of foliage_leaf().
 ///
 /// triangles  4, 8, 12 or 16
 /// throws     as foliage_leaf()

@@ -121,6 +121,11 @@ DrawList draw_list(const GlbScene& scene, const Parallel& parallel, int side) {
         decode(to.base_color, ImageKind::base_color, Encoding::srgb, 2 * side);
         decode(to.normal, ImageKind::normal, Encoding::linear, side);
         decode(to.orm, ImageKind::orm, Encoding::linear, side);
+        if (from.alpha_cutoff > 0.0 &&
+            from.images->format_of(ImageKind::base_color) == ImageFormat::png) {
+            to.alpha_cutoff = static_cast<float>(from.alpha_cutoff);
+            decode(to.alpha, ImageKind::base_color, Encoding::alpha, 2 * side);
+        }
         if (through.thinness.size > 0)
             tasks.emplace_back([&to, &file = through.thinness] {
                 to.thinness = Texture({file.data(), file.size}, Encoding::alpha, false);

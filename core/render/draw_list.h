@@ -37,6 +37,8 @@ struct Draw {
 /// A material; without images it is white and rough.
 struct DrawMaterial {
     Texture base_color, normal, orm;
+    Texture alpha;  ///< of the base colour, where what has less than `alpha_cutoff` is not drawn
+    float alpha_cutoff = 0.0F;
     MaterialLook look;
     /// Share of matt light that passes through, times `thinness` where there is one, and its tint.
     float transmission = 0.0F;

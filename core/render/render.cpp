@@ -17,6 +17,7 @@
 #include "core/render/camera.h"
 #include "core/render/clipping.h"
 #include "core/render/close_up.h"
+#include "core/render/cutout.h"
 #include "core/render/daylight.h"
 #include "core/render/draw_list.h"
 #include "core/render/ground_shadow.h"
@@ -100,6 +101,29 @@ struct ImageTriangles {
     }
 };
 
+/// Returns where the samples of a camera look.
+SampleRays rays_of(const Camera& camera, int columns, int rows) {
+    const glm::vec2 step(2.0F * camera.tangent_x / static_cast<float>(columns),
+                         -2.0F * camera.tangent_y / static_cast<float>(rows));
+    return {glm::vec2(-camera.tangent_x, camera.tangent_y) + 0.5F * step, step};
+}
+
+/// Returns which parts of the triangles of a draw are drawn; nothing if all of each are.
+///
+/// seen  its vertices in the axes of the camera
+Cutouts cutouts_of(const DrawList& list, std::size_t of, const std::vector<glm::vec3>& seen,
+                   const SampleRays& rays) {
+    const Draw& draw = list.draws[of];
+    const DrawMaterial& material = list.materials[draw.material];
+    if (material.alpha.empty()) return {};
+    return [&, rays](std::uint32_t first) {
+        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
+        return Cutout(draw, material, first,
+                      {seen[indices[first]], seen[indices[first + 1]], seen[indices[first + 2]]},
+                      rays);
+    };
+}
+
 SeenScene visible(const DrawList& list, const Camera& camera, int columns, int rows,
                   const Parallel& parallel) {
     SeenScene found(columns, rows, list.draws.size());
@@ -115,11 +139,13 @@ SeenScene visible(const DrawList& list, const Camera& camera, int columns, int r
         });
     parallel(tasks);
     tasks.clear();
+    const SampleRays rays = rays_of(camera, columns, rows);
     for (int part = 0; part < visible_bands; ++part)
         tasks.emplace_back([&, from = rows * part / visible_bands,
                             to = rows * (part + 1) / visible_bands] {
             for (std::size_t d = 0; d < images.size(); ++d)
-                found.show(d, images[d].indices, images[d].corners, from, to, images[d].parts.of);
+                found.show(d, images[d].indices, images[d].corners, from, to, images[d].parts.of,
+                           cutouts_of(list, d, found.seen[d], rays));
         });
     parallel(tasks);
     return found;

@@ -3,13 +3,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "core/render/cutout.h"
 #include "core/render/triangle_raster.h"
 
 namespace sporeprint::render {
+
+/// Returns which part of a triangle is drawn, by its first corner.
+using Cutouts = std::function<Cutout(std::uint32_t)>;
 
 /// The nearest triangle at each sample.
 struct Visibility {
@@ -28,9 +33,10 @@ struct Visibility {
     /// corners   of its vertices, whose third component is their nearness
     /// from, to  rows of samples; others do not change
     /// of        for parts of triangles, the first corner of the whole one; none for whole ones
+    /// cutouts   returns which part of a triangle is drawn, by its first corner; none for all of each
     void show(std::size_t of_draw, std::span<const std::uint32_t> indices,
               std::span<const SnappedCorner> corners, int from, int to,
-              std::span<const std::uint32_t> of = {});
+              std::span<const std::uint32_t> of = {}, const Cutouts& cutouts = {});
 
     [[nodiscard]] bool shows(std::size_t at) const { return nearness[at] > nothing; }
     [[nodiscard]] bool same(std::size_t a, std::size_t b) const {

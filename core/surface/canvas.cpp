@@ -1,5 +1,6 @@
 #include "core/surface/canvas.h"
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -69,19 +70,36 @@ struct Quality {
 constexpr std::array<Quality, 3> qualities = {
     {{88, Chroma::halved, 75}, {89, Chroma::full, 68}, {88, Chroma::halved, 50}}};
 
-}  // namespace
+/// Returns an image with alpha as a file.
+Bytes with_alpha(std::span<const std::uint8_t> rgb, std::span<const std::uint8_t> alpha, int width,
+                 int height, ImageFormat format, int quality) {
+    Bytes rgba(4 * alpha.size());
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+        std::copy_n(&rgb[3 * i], 3, &rgba[4 * i]);
+        rgba[4 * i + 3] = alpha[i];
+    }
+    return format == ImageFormat::webp ? webp_with_alpha(rgba, width, height, quality)
+                                       : png(rgba, width, height);
+}
 
-ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int width, int height,
-                 ImageFormat format, const Parallel& parallel) {
+/// alpha  of the base colour; empty for an opaque one
+ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb,
+                 std::span<const std::uint8_t> alpha, int width, int height, ImageFormat format,
+                 const Parallel& parallel) {
     ImageSet out;
     out.format = format;
+    out.has_alpha = !alpha.empty();
     const auto encode = [&](ImageKind kind) {
         const auto i = static_cast<std::size_t>(kind);
         const Quality& quality = qualities[i];
-        out.files[i] = Slice(std::make_shared<const Bytes>(
-            format == ImageFormat::webp
-                ? webp(rgb[i], width, height, quality.webp)
-                : jpeg(rgb[i], width, height, quality.jpeg, quality.chroma)));
+        Bytes file;
+        if (out.has_alpha && kind == ImageKind::base_color)
+            file = with_alpha(rgb[i], alpha, width, height, format, quality.webp);
+        else if (format == ImageFormat::webp)
+            file = webp(rgb[i], width, height, quality.webp);
+        else
+            file = jpeg(rgb[i], width, height, quality.jpeg, quality.chroma);
+        out.files[i] = Slice(std::make_shared<const Bytes>(std::move(file)));
     };
     // The image that takes longest first.
     const std::array<std::function<void()>, 3> pieces = {[&] { encode(ImageKind::normal); },
@@ -91,6 +109,13 @@ ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int wi
     return out;
 }
 
+}  // namespace
+
+ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int width, int height,
+                 ImageFormat format, const Parallel& parallel) {
+    return encoded(rgb, {}, width, height, format, parallel);
+}
+
 ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& parallel) {
     std::array<std::span<const std::uint8_t>, 3> rgb;
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = {canvas.image(i), canvas.size()};
@@ -98,8 +123,8 @@ ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& paral
 }
 
 ImageSet encoded(const RawImages& images, ImageFormat format, const Parallel& parallel) {
-    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.side, images.side, format,
-                   parallel);
+    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.alpha, images.side,
+                   images.side, format, parallel);
 }
 
 RawImages raw(const Canvas& canvas) {

@@ -621,7 +621,7 @@ RawImages floor_images(const FloorPaint& paint, const Parallel& parallel) {
     if (paint.pieces && paint.cover->step != CoverField::finest_step)
         throw InvalidInput("/cover", "the pieces of a floor need the finest step of its cover");
     const auto side = static_cast<std::size_t>(paint.side);
-    RawImages images{paint.side, {}};
+    RawImages images{paint.side, {}, {}};
     for (Bytes& image : images.rgb) image.resize(3 * side * side);
     const FloorPainter painter(paint, images);
     std::vector<std::function<void()>> tasks;

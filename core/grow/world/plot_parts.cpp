@@ -59,7 +59,7 @@ constexpr int finest_shoots = 1;
 
 /// Replaces shoots by more and shorter ones: trees of a wood are several times as tall as the preset, which is scaled.
 void make_shoots_finer(LeafStyle& leaves) {
-    constexpr double shorter = 0.62, least_deg = 45.0;
+    constexpr double shorter = 0.6, least_deg = 52.0;
     leaves.per_tip *= 2;
     leaves.leaf_size *= shorter;
     leaves.leaf_deg = std::max(leaves.leaf_deg, least_deg);

@@ -56,6 +56,7 @@ std::size_t WorldMaterials::leaves(const std::string& name, const std::string& l
                                    const LeafPaint& paint) {
     return named(leaf_material_name(name, paint, textures_), [&](GlbMaterial& material) {
         material.transmission = transmission_of_leaves(file_);
+        material.alpha_cutoff = alpha_cutoff_of(paint);
         attach(
             material, textures_, [&] { return urls_.leaves(leaf, paint); },
             [&](ImageFormat format) { return painted_images(paint, execution_, format); });

@@ -8,6 +8,8 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "api/http/query.h"
 #include "api/openapi.h"
@@ -37,6 +39,42 @@ std::string small(const std::string& more = "") { return oak + "?lod=3&texture_s
 Request body(std::string json) { return post(std::move(json), "/v1/trees.glb"); }
 
 class TreesTest : public test::RequestedService {};
+
+TEST_F(TreesTest, NeedlesHaveABaseColourWithAlpha) {
+    const std::string root = "/v1/trees/leaves/shoot/base_color";
+    for (const auto& [ending, type] :
+         {std::pair("png", "image/png"), std::pair("webp", "image/webp")}) {
+        const Response image = ask(root + "." + ending + "?texture_size=128");
+        ASSERT_EQ(image.status, 200) << text_of(image);
+        EXPECT_EQ(header(image, "Content-Type"), type);
+    }
+    EXPECT_TRUE(text_of(ask(root + ".png?texture_size=128")).starts_with("\x89PNG"));
+    EXPECT_EQ(ask("/v1/trees/leaves/shoot/normal.jpg?texture_size=128").status, 200);
+    // What does not exist says what does.
+    const std::vector<std::string> missing = {root + ".jpg", "/v1/trees/leaves/shoot/normal.png",
+                                              "/v1/trees/leaves/oak/base_color.png"};
+    for (const std::string& address : missing) {
+        const Response refused = ask(address);
+        EXPECT_EQ(refused.status, 404) << address;
+        EXPECT_TRUE(names(refused, "image", "does not exist")) << text_of(refused);
+    }
+    // Linked files name it, and its material leaves out what is clear.
+    for (const char* const look : {"linked", "embedded"}) {
+        const std::string address =
+            std::string("/v1/trees/spruce.glb?lod=3&texture_size=128&textures=") + look;
+        const Response file = ask(address);
+        ASSERT_EQ(file.status, 200) << text_of(file);
+        EXPECT_NE(text_of(file).find("\"alphaMode\":\"MASK\",\"alphaCutoff\":0.4"),
+                  std::string::npos);
+        if (std::string_view(look) == "embedded") continue;
+        int pngs = 0;
+        for (const std::string& image : linked_images(file, address)) {
+            EXPECT_EQ(ask(image).status, 200) << image;
+            pngs += image.find(".png?") != std::string::npos ? 1 : 0;
+        }
+        EXPECT_EQ(pngs, 1);
+    }
+}
 
 TEST_F(TreesTest, AreListedWithLinksThatWork) {
     const Value list = json_of(ask("/v1/trees"));

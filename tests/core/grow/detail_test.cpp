@@ -133,13 +133,13 @@ TEST(Drawing, MeasuresOutlinesAndSeesSteps) {
 }
 
 TEST(MeanColour, IsThatOfItsLight) {
-    RawImages grey{1, {Bytes{119, 119, 119}, Bytes(3), Bytes(3)}};
+    RawImages grey{1, {Bytes{119, 119, 119}, Bytes(3), Bytes(3)}, {}};
     MeanColour mean;
     mean.add(grey, {0.5F, 0.5F});
     EXPECT_NEAR(mean.mean().l, 50.0, 0.2);
     EXPECT_NEAR(mean.mean().a, 0.0, 0.1);
     EXPECT_NEAR(mean.mean().b, 0.0, 0.1);
-    const RawImages red{1, {Bytes{255, 0, 0}, Bytes(3), Bytes(3)}};
+    const RawImages red{1, {Bytes{255, 0, 0}, Bytes(3), Bytes(3)}, {}};
     MeanColour other;
     other.add(red, {0.5F, 0.5F});
     EXPECT_NEAR(other.mean().l, 53.24, 0.1);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/math/elementary.h"
+#include "core/plant/leaf_shell.h"
 #include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
@@ -139,6 +140,53 @@ TEST(LeafImage, TheNetIsPalerThanTheLaminaAndMarksAreBrown) {
     const glm::dvec3 marked = mean_of();
     EXPECT_LT(marked.g, netted.g - 0.005);
     EXPECT_GT(marked.r - marked.g, netted.r - netted.g);
+}
+
+TEST(LeafImage, OnlyNeedlesHaveAShootWithClearGaps) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        SCOPED_TRACE(preset.id.string());
+        const RawImages images = leaf_images(preset.shape, preset.palette, 0.0, 1, side);
+        EXPECT_EQ(images.alpha.empty(), !has_shoot(preset.shape.venation));
+        if (images.alpha.empty()) continue;
+        ASSERT_EQ(images.alpha.size(), std::size_t{side} * side);
+        const auto alpha = [&](double u, double v) {
+            return images.alpha[static_cast<std::size_t>(v * side) * side +
+                                static_cast<std::size_t>(u * side)];
+        };
+        // The lamina itself and the petiole are opaque, and so is the twig of the shoot.
+        const LeafChart chart =
+            chart_of(lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0)));
+        for (const bool upper : {true, false}) {
+            const glm::dvec2 middle = chart.texture_point({0.0, 0.5}, upper);
+            EXPECT_EQ(alpha(middle.x, middle.y), 255);
+            const double half = upper ? 0.0 : 0.5;
+            for (const LeafPanel& panel : {shoot_panel, spray_panel}) {
+                EXPECT_GT(alpha(half + panel.middle, panel_root - 0.3 * panel_length), 150);
+                // Beside it nothing is drawn, so that smaller copies have no border.
+                for (const double across : {-1.06, 1.06})
+                    for (const double along : {0.05, 0.5, 0.95})
+                        EXPECT_EQ(alpha(half + panel.middle + across * panel.half,
+                                        panel_root - along * panel_length),
+                                  0);
+            }
+        }
+        const auto covered = [&](const LeafPanel& panel, double from, double to) {
+            double sum = 0.0, all = 0.0;
+            for (double along = from; along < to; along += 0.01)
+                for (double across = -0.99; across < 1.0; across += 0.02, all += 255.0)
+                    sum += alpha(panel.middle + across * panel.half,
+                                 panel_root - along * panel_length);
+            return sum / all;
+        };
+        EXPECT_GT(covered(shoot_panel, 0.01, 0.99), 0.4);
+        EXPECT_LT(covered(shoot_panel, 0.01, 0.99), 0.8);
+        // A spray is narrower at its tip.
+        EXPECT_GT(covered(spray_panel, 0.2, 0.4), 0.3);
+        EXPECT_LT(covered(spray_panel, 0.8, 0.99), 0.5 * covered(spray_panel, 0.2, 0.4));
+    }
+    EXPECT_TRUE(shows_shoots(leaf_preset("shoot")->shape));
+    EXPECT_FALSE(shows_shoots(leaf_preset("needle")->shape)) << "It is a needle, not a shoot.";
+    EXPECT_FALSE(shows_shoots(leaf_preset("fern")->shape));
 }
 
 TEST(LeafImage, InvalidRequestsAreRefused) {

@@ -60,7 +60,7 @@ TEST(Snow, CoversMoreTheMoreOfItThereIs) {
 }
 
 RawImages brown_floor(int side) {
-    RawImages images{side, {}};
+    RawImages images{side, {}, {}};
     for (Bytes& image : images.rgb)
         image.assign(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 60);
     return images;

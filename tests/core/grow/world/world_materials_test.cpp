@@ -24,7 +24,7 @@ MaterialUrls named_urls() {
 }
 
 ImageSet grey_images(ImageFormat format) {
-    RawImages images{16, {}};
+    RawImages images{16, {}, {}};
     for (Bytes& image : images.rgb) image.assign(3 * 16 * 16, 128);
     return encoded(images, format, in_turn);
 }

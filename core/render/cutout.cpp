@@ -1,0 +1,44 @@
+#include "core/render/cutout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sporeprint::render {
+
+namespace {
+
+/// Returns twice the area of a triangle.
+float twice_area(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+    const glm::vec2 ab = b - a, ac = c - a;
+    return std::abs(ab.x * ac.y - ab.y * ac.x);
+}
+
+}  // namespace
+
+Cutout::Cutout(const Draw& draw, const DrawMaterial& material, std::size_t first_corner,
+               const std::array<glm::vec3, 3>& corners, const SampleRays& rays) {
+    const Mesh& mesh = *draw.mesh;
+    if (material.alpha.empty() || mesh.texture_coordinates.empty()) return;
+    alpha_ = &material.alpha;
+    cutoff_ = material.alpha_cutoff;
+    for (std::size_t i = 0; i < 3; ++i)
+        corners_[i] = mesh.texture_coordinates[mesh.indices[first_corner + i]];
+    // The weight of a corner is the volume between the ray and the other two.
+    for (int i = 0; i < 3; ++i) {
+        const glm::vec3 side = glm::cross(corners[static_cast<std::size_t>((i + 1) % 3)],
+                                          corners[static_cast<std::size_t>((i + 2) % 3)]);
+        origin_[i] = glm::dot(side, glm::vec3(rays.first, 1.0F));
+        along_[i] = side.x * rays.step.x;
+        down_[i] = side.y * rays.step.y;
+    }
+    // A corner may be behind the camera.
+    const float near = 0.1F * std::max({corners[0].z, corners[1].z, corners[2].z});
+    const auto seen = [&](std::size_t i) {
+        return glm::vec2(corners[i]) / (rays.step * std::max(corners[i].z, near));
+    };
+    const float image = twice_area(corners_[0], corners_[1], corners_[2]),
+                screen = twice_area(seen(0), seen(1), seen(2));
+    texels_ = static_cast<float>(alpha_->side()) * std::sqrt(image / std::max(screen, 0.0025F));
+}
+
+}  // namespace sporeprint::render
