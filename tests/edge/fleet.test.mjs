@@ -176,6 +176,44 @@ for (const kind of ["nginx", "varnish"])
         assert.match(JSON.parse(gone.body).canonical, new RegExp(`v=${generation}-`));
     });
 
+for (const kind of ["nginx", "varnish", "haproxy"])
+    test(`a burst beyond all replicas behind ${kind} is 503 with Retry-After, and what costs nothing goes on`, async (t) => {
+        const busy = [0, 0, 0];
+        const replicas = await Promise.all(
+            busy.map((_, i) =>
+                fleet.fake(t, async (request, response) => {
+                    if (!request.url.startsWith("/v1/mushrooms/")) return response.end("free");
+                    if (busy[i] >= 20) return response.writeHead(503, { "Retry-After": "7" }).end("full");
+                    ++busy[i];
+                    await fleet.sleep(400);
+                    --busy[i];
+                    response.end(`made by ${i}`);
+                }),
+            ),
+        );
+        const edge = await fleet[kind](t, ["--pool", `${generation}=${addressesOf(replicas)}`]);
+        const burst = (count, name) => Promise.all(Array.from({ length: count }, (_, k) => ask(edge.port, `/v1/mushrooms/${name}${k}.glb`)));
+        const all = burst(450, "burst"), free = [];
+        for (let i = 0; i < 20; ++i) {
+            free.push((await ask(edge.port, `/v1/trees?${i}`)).status);
+            await fleet.sleep(10);
+        }
+        assert.deepEqual(new Set(free), new Set([200]));
+        const counts = {};
+        for (const { status, headers } of await all) {
+            counts[status] = (counts[status] ?? 0) + 1;
+            if (status === 503) assert.equal(headers["retry-after"], "7");
+        }
+        assert.deepEqual(Object.keys(counts), ["200", "503"], JSON.stringify(counts));
+        // All have room for 60, each for 20.
+        assert.deepEqual(new Set((await burst(45, "few")).map(({ status }) => status)), new Set([200]));
+        // One dies.
+        replicas[0].close();
+        const began = performance.now();
+        for (let k = 0; k < 20; ++k) assert.equal((await ask(edge.port, `/v1/trees?dead${k}`)).status, 200);
+        assert.ok(performance.now() - began < 1000, "It is passed over at once.");
+    });
+
 test("the most frequent addresses are compared before an upgrade", async (t) => {
     const own = fleet.folder(t), log = path.join(own, "log"), list = path.join(own, "list");
     const before = await fleet.replica(t), after = await fleet.replica(t, ["--atlas", otherTemplates(t)]);

@@ -160,6 +160,17 @@ export async function haproxy(t, options) {
     return child;
 }
 
+/** Starts a server in the place of a replica, or of something else, which responds as `respond` says; resolves to its port and close(). */
+export function fake(t, respond) {
+    const server = http.createServer(respond);
+    const close = () => {
+        server.close();
+        server.closeAllConnections();
+    };
+    t.after(close);
+    return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve({ port: server.address().port, close })));
+}
+
 /** Returns the sum of a metric over its labels. */
 export async function metric(port, name) {
     const { body } = await ask(port, "/metrics");
