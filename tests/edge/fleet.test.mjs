@@ -82,11 +82,29 @@ test("behind nginx a replica dies twice, and every response is 200", async (t) =
     // Each of four replicas and more has made a file for its test of itself.
     assert.ok(made - 5 <= 1.3 * seen.size, `${made} made of ${seen.size} distinct`);
     const again = await ask(edge.port, variant(0), { agent });
-    assert.match(again.headers["cache-status"], /^edge; detail=HIT/);
-    assert.equal((await ask(edge.port, "/v1/none")).headers["cache-status"].split(",")[0], "edge; detail=MISS");
-    const refused = await ask(edge.port, "/v1/mushrooms/none.glb");
-    assert.equal(refused.headers["x-request-id"], JSON.parse(refused.body).instance, "The id is that of the replica's log.");
-    assert.equal((await ask(edge.port, "/metrics")).status, 404);
+    assert.equal(again.headers["cache-status"], "edge; hit");
+    assert.match((await ask(edge.port, variant(1000))).headers["cache-status"], /^sporeprint.*; stored, edge; fwd=miss$/);
+    assert.equal((await ask(edge.port, "/v1/none")).headers["cache-status"], "edge; fwd=miss");
+    for (const [target, status, options] of [
+        ["/v1/mushrooms/none.glb", 404], ["/v1/mushrooms.glb", 415, { method: "POST", body: "{" }], ["/v1/species", 405, { method: "DELETE" }],
+        [`${variant(0)}&v=${generation}-00000000`, 410],
+    ]) {
+        const refused = await ask(edge.port, target, options);
+        assert.equal(refused.status, status, target);
+        assert.equal(refused.headers["x-request-id"], JSON.parse(refused.body).instance, "The id is that of the replica's log.");
+        assert.match(refused.headers["cache-status"], /^edge; fwd=(miss|bypass)$/, target);
+    }
+    const hidden = await ask(edge.port, "/metrics");
+    assert.equal(hidden.status, 404);
+    assert.match(hidden.headers["x-request-id"], /^[0-9a-f]{32}$/);
+    assert.equal(hidden.headers["cache-status"], undefined);
+    for (const target of [variant(0), variant(1001)]) {
+        // Node joins what is sent twice by a comma.
+        const beyond = await ask(edge.port, target, { headers: { Range: "bytes=99999999-" } });
+        assert.equal(beyond.status, 416);
+        assert.match(beyond.headers["cache-status"], /^edge; hit$|^sporeprint.*stored, edge; fwd=miss$/);
+        assert.match(beyond.headers["x-request-id"], /^[0-9a-f]+$/);
+    }
     const range = await ask(edge.port, variant(0), { headers: { Range: "bytes=0-3" } });
     assert.equal(range.status, 206);
     assert.equal(range.body.toString(), "glTF");
@@ -342,6 +360,7 @@ test("Varnish shares spellings, retries a full replica and answers ranges", asyn
     requests.length = 0;
     const first = await ask(edge.port, "/v1/x.glb?b=2&a=1");
     assert.equal(first.headers["server-timing"], "build;dur=9");
+    assert.equal(first.headers["cache-status"], "edge; fwd=miss");
     const second = await ask(edge.port, "/v1/x.glb?a=1&b=2");
     assert.equal(requests.length, 1, "One object for both spellings.");
     assert.match(requests[0], /b=2&a=1$/, "It is sent on as it came.");
