@@ -51,6 +51,9 @@ test("configurations are valid, and what is wrong is named", (t) => {
     refuses(["nginx", ...one, "--archive", "host:1"], /'host:1' is not HOST:PORT\/BUCKET/);
     refuses(["nginx", ...one, "--speed", "1"], /there is no --speed/);
     refuses(["nginx", "--pool"], /--pool needs a value/);
+    refuses(["nginx", "--edges", "a:1"], /--edges is not an option of nginx/);
+    refuses(["haproxy", ...one, "--edges", "a:1"], /HAProxy before them does not/);
+    refuses(["haproxy", "--edges", "a"], /'a' is not HOST:PORT/);
     refuses(["haproxy", ...one, "--keys", "/nowhere"], /cannot be read|has no line/);
 });
 
@@ -484,6 +487,31 @@ test("HAProxy lets nothing through that a replica with keys would not", async (t
         assert.equal((await ask(edge.port, spelling)).status, 403, spelling);
     assert.equal((await ask(edge.port, "/%6detrics")).status, 404);
 });
+
+for (const kind of ["nginx", "varnish"])
+    test(`HAProxy stands in front of ${kind}`, async (t) => {
+        const keys = path.join(fleet.folder(t), "keys");
+        writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
+        const one = await fleet.replica(t, ["--client-work", "1", "--client-burst", "25", "--trusted-proxies", "127.0.0.1"]);
+        const cache = await fleet[kind](t, ["--pool", `${generation}=127.0.0.1:${one.port}`]);
+        const edge = await fleet.haproxy(t, ["--edges", `127.0.0.1:${cache.port}`, "--keys", keys]);
+        const sign = (target) => execFileSync(fleet.binary, ["--sign-keys", keys, "--sign", target], { encoding: "utf8" }).trim();
+        // The health of an edge is checked twice.
+        await fleet.sleep(2500);
+        const small = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none";
+        assert.equal((await ask(edge.port, small)).status, 403);
+        for (const seen of [/fwd=miss/, /^edge; hit/]) {
+            const { status, headers } = await ask(edge.port, sign(small), { local: "127.0.0.4" });
+            assert.equal(status, 200);
+            assert.match(headers["cache-status"], seen);
+        }
+        // Each client has a budget, although two proxies are between.
+        const large = (k) => sign(`/v1/mushrooms/boletus_edulis.glb?lod=0&texture_size=1024&seed=${k}`);
+        const statuses = [];
+        for (let k = 0; k < 6; ++k) statuses.push((await ask(edge.port, large(k), { local: "127.0.0.2" })).status);
+        assert.equal(statuses.at(-1), 429, statuses.join());
+        assert.equal((await ask(edge.port, large(9), { local: "127.0.0.3" })).status, 200);
+    });
 
 test("behind nginx each client has its budget, and a forged address changes nothing", async (t) => {
     const one = await fleet.replica(t, [
