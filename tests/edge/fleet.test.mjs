@@ -25,7 +25,7 @@ test("configurations are valid, and what is wrong is named", (t) => {
         execFileSync("nginx", ["-t", "-q", "-c", file, "-e", "stderr"], { stdio: "pipe" });
         fleet.configuredIn(file, "varnish", pools);
         execFileSync("varnishd", ["-C", "-f", file], { stdio: "pipe" });
-        fleet.configuredIn(file, "haproxy", [...pools, "--keys", keys]);
+        fleet.configuredIn(file, "haproxy", [...one, ...(pools === one ? [] : ["--pool", "38b=127.0.0.1:3"]), "--keys", keys]);
         execFileSync("haproxy", ["-c", "-q", "-f", file], { stdio: "pipe" });
     }
     const refuses = (args, what) => {
@@ -53,8 +53,14 @@ test("configurations are valid, and what is wrong is named", (t) => {
     refuses(["nginx", "--pool"], /--pool needs a value/);
     refuses(["nginx", "--edges", "a:1"], /--edges is not an option of nginx/);
     refuses(["haproxy", ...one, "--edges", "a:1"], /HAProxy before them does not/);
+    refuses(["haproxy", ...two], /HAProxy cannot ask a second pool of number 38; nginx and Varnish can/);
     refuses(["haproxy", "--edges", "a"], /'a' is not HOST:PORT/);
-    refuses(["haproxy", ...one, "--keys", "/nowhere"], /cannot be read|has no line/);
+    refuses(["haproxy", ...one, "--keys", "/nowhere"], /\/nowhere cannot be read/);
+    refuses(["haproxy", ...one, "--base-path", "sp/"], /'sp\/' is not like \/sporeprint/);
+    for (const [text, what] of [["# none\n", /has no key/], ["k1 0011\n", /line 1 of/], [`a b\nk1 ${"00".repeat(16)} more\n`, /line 1 of/]]) {
+        writeFileSync(keys, text);
+        refuses(["haproxy", ...one, "--keys", keys], what);
+    }
 });
 
 test("behind nginx a replica dies twice, and every response is 200", async (t) => {
@@ -424,14 +430,20 @@ test("replicas of other threads and instructions send the same bytes", async (t)
 });
 
 test("HAProxy and a replica agree about signed addresses", async (t) => {
-    const keys = path.join(fleet.folder(t), "keys");
-    writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
+    const own = fleet.folder(t), keys = path.join(own, "keys"), older = path.join(own, "older");
+    const first = "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n";
+    writeFileSync(older, first);
+    writeFileSync(keys, `# The newest signs.\nk2 ffeeddccbbaa99887766554433221100\n\n${first.trim()}`);
     const open = await fleet.replica(t), closed = await fleet.replica(t, ["--sign-keys", keys]);
     const edge = await fleet.haproxy(t, ["--pool", `${generation}=127.0.0.1:${open.port}`, "--keys", keys]);
-    const signed = (target, ...more) =>
-        execFileSync(fleet.binary, ["--sign-keys", keys, "--sign", target, ...more], { encoding: "utf8" }).trim();
+    const signedBy = (file, target, ...more) =>
+        execFileSync(fleet.binary, ["--sign-keys", file, "--sign", target, ...more], { encoding: "utf8" }).trim();
+    const signed = (...all) => signedBy(keys, ...all);
     const plain = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none", bare = "/v1/mushrooms/boletus_edulis.glb";
+    const pinned = (await ask(open.port, plain)).headers["content-location"];
+    assert.match(pinned, /v=/);
     const good = signed(plain), soon = signed(plain, "--sign-for", "20"), brief = signed(plain, "--sign-for", "1");
+    const long = ["--sign-for", "86400"];
     await fleet.sleep(2100);
     const cases = [
         [good, 200],
@@ -441,21 +453,63 @@ test("HAProxy and a replica agree about signed addresses", async (t) => {
         [plain, 403],
         [good.replace(/sig=./, "sig=-"), 403],
         [good.replace("lod=3", "lod=2"), 403],
+        [good.replace("key=k2", "key=k1"), 403],
+        [good.replace("key=k2", "key=k3"), 403],
         [soon.replace(/expires=\d/, "expires=9"), 403],
+        [signedBy(older, plain), 200],
+        [signedBy(older, plain, ...long), 200],
+        [signed(plain, ...long), 200],
+        [signed(pinned), 200],
+        [signed(pinned, ...long), 200],
+        [signed(pinned, "--sign-for", "20"), 200],
+        [signed("/v1/mushrooms/none.glb", ...long), 404],
+        [signed(`${bare}?lod=9`, ...long), 400],
+        [signed(`${plain}&v=${generation}-00000000`, ...long), 410],
         ["/v1/mushrooms/schema", 200],
+        ["/v1/mushrooms?expires=9999999999", 400],
     ];
-    for (const [target, status] of cases) {
-        const by = { edge: await ask(edge.port, target), replica: await ask(closed.port, target) };
-        assert.equal(by.edge.status, status, `edge: ${target}`);
-        assert.equal(by.replica.status, status, `replica: ${target}`);
-        if (status === 200) assert.deepEqual(by.edge.body, by.replica.body);
-        if (target !== soon) continue;
-        for (const { headers } of [by.edge, by.replica]) {
-            const left = Number(headers["cache-control"].match(/max-age=(\d+)/)[1]);
-            assert.ok(left > 0 && left <= 18, headers["cache-control"]);
-            assert.doesNotMatch(headers["cache-control"], /stale-while-revalidate/);
+    const freshness = ({ headers }) => {
+        const text = headers["cache-control"], [age] = text.match(/(?<=max-age=)\d+/) ?? ["0"];
+        return { text: text.replace(/\d+/, "N"), age: Number(age) };
+    };
+    for (const [target, status] of cases)
+        for (const headers of [{}, { "If-None-Match": "*" }]) {
+            const by = { edge: await ask(edge.port, target, { headers }), replica: await ask(closed.port, target, { headers }) };
+            assert.equal(by.edge.status, by.replica.status, target);
+            assert.equal(by.edge.status, status === 200 && headers["If-None-Match"] ? 304 : status, `edge: ${target}`);
+            if (status === 200) assert.deepEqual(by.edge.body, by.replica.body);
+            const [ours, theirs] = [freshness(by.edge), freshness(by.replica)];
+            assert.equal(ours.text, theirs.text, target);
+            assert.ok(Math.abs(ours.age - theirs.age) <= 1, `${target}: ${ours.age}, ${theirs.age}`);
+            if (target === soon) assert.ok(ours.age > 0 && ours.age <= 18, `${ours.age} s`);
+            assert.equal(by.edge.headers["content-location"], by.replica.headers["content-location"], target);
+            if (status !== 403) continue;
+            assert.equal(by.edge.headers["content-type"], "application/problem+json");
+            assert.equal(JSON.parse(by.edge.body).status, 403);
         }
+});
+
+test("every edge hides what is the operator's, and HAProxy with keys what it does not know, below a base path", async (t) => {
+    const keys = path.join(fleet.folder(t), "keys");
+    writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
+    const one = await fleet.replica(t, ["--base-path", "/sp"]);
+    const pool = ["--pool", `${generation}=127.0.0.1:${one.port}`];
+    const made = "/sp/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none";
+    for (const edge of [await fleet.nginx(t, pool), await fleet.varnish(t, pool), await fleet.haproxy(t, pool)]) {
+        for (const hidden of ["/metrics", "/sp/metrics", "/sp/readyz?x=1", "/sp/livez"]) assert.equal((await ask(edge.port, hidden)).status, 404, hidden);
+        for (const shown of [made, "/sp/v1/species", "/sp/v1/mushrooms/schema"]) assert.equal((await ask(edge.port, shown)).status, 200, shown);
     }
+    const known = await fleet.haproxy(t, [...pool, "--keys", keys, "--base-path", "/sp"]), unknown = await fleet.haproxy(t, [...pool, "--keys", keys]);
+    const good = execFileSync(fleet.binary, ["--sign-keys", keys, "--sign", made], { encoding: "utf8" }).trim();
+    for (const [target, ...wanted] of [
+        [made, 403, 403], [made.slice(3), 403, 403], [good, 200, 200], ["/sp/v1", 200, 200], ["/v1/species", 200, 200],
+        ["/sp/v1/species", 200, 403], ["/sp/v1/mushrooms/schema", 200, 403], ["/%73p/v1/mushrooms/boletus_edulis.glb", 403, 403],
+        ["/sp/v1/library", 404, 403], ["/sp/metrics", 404, 404],
+    ])
+        assert.deepEqual([(await ask(known.port, target)).status, (await ask(unknown.port, target)).status], wanted, target);
+    const { headers, body } = await ask(known.port, "/sp/metrics");
+    assert.equal(headers["content-type"], "application/problem+json");
+    assert.match(JSON.parse(body).detail, /operator/);
 });
 
 test("HAProxy lets nothing through that a replica with keys would not", async (t) => {
