@@ -28,6 +28,11 @@ test("configurations are valid, and what is wrong is named", (t) => {
         fleet.configuredIn(file, "haproxy", [...one, ...(pools === one ? [] : ["--pool", "38b=127.0.0.1:3"]), "--keys", keys]);
         execFileSync("haproxy", ["-c", "-q", "-f", file], { stdio: "pipe" });
     }
+    // As Debian's service reads it: its unit names this process file, which nginx -t would create.
+    const system = fleet.configured("nginx", [...one, "--cache", path.join(own, "cache")]);
+    assert.match(system, /^user www-data;\npid \/run\/nginx\.pid;$/m);
+    writeFileSync(file, system.replace("/run/nginx.pid", path.join(own, "pid")));
+    execFileSync("nginx", ["-t", "-q", "-c", file, "-e", "stderr"], { stdio: "pipe" });
     const refuses = (args, what) => {
         const { status, stderr } = spawnSync("server/edge/configure", args, { encoding: "utf8" });
         assert.equal(status, 2, args.join(" "));

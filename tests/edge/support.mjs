@@ -1,5 +1,5 @@
 // Processes of a fleet on this machine: replicas, edges, and clients that count what they receive.
-import { spawn, spawnSync } from "node:child_process";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { chmodSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import http from "node:http";
 import net from "node:net";
@@ -129,7 +129,7 @@ export async function nginx(t, options) {
     child.port = port;
     child.reload = async (more) => {
         configuredIn(file, "nginx", all(more));
-        child.kill("SIGHUP");
+        execFileSync("nginx", ["-c", file, "-e", "stderr", "-s", "reload"]);
         await sleep(300);
     };
     t.after(() => stop(child, "SIGQUIT"));
