@@ -126,7 +126,7 @@ test("behind nginx a replica dies twice, and every response is 200", async (t) =
     assert.equal(same.status, 304);
 });
 
-/** Returns a folder of templates that differ in one number. */
+/** Returns a folder of templates that differ in a number of a species and one of a world. */
 function otherTemplates(t) {
     const own = fleet.folder(t);
     for (const [kind, from] of [["species", "species"], ["leaves", "leaves"], ["trees", "trees"], ["worlds", "worlds"]]) {
@@ -137,6 +137,9 @@ function otherTemplates(t) {
     const species = JSON.parse(fleet.textOf(file));
     species.spread.lightness += 0.01;
     writeFileSync(file, JSON.stringify(species));
+    const world = path.join(own, "worlds/beech.json"), beech = JSON.parse(fleet.textOf(world));
+    beech.terrain.relief += 1;
+    writeFileSync(world, JSON.stringify(beech));
     return own;
 }
 
@@ -286,9 +289,12 @@ test("the most frequent addresses are compared before an upgrade", async (t) => 
 test("what a retired version left is served from an archive", async (t) => {
     // An object store, as far as rclone and nginx use it.
     const objects = new Map();
+    let puts = 0, refusing = false;
     const store = http.createServer((request, response) => {
         const key = decodeURIComponent(request.url.split("?")[0]);
         if (request.method === "PUT") {
+            ++puts;
+            if (refusing) return response.writeHead(403).end();
             const parts = [];
             request.on("data", (part) => parts.push(part));
             request.on("end", () => {
@@ -304,7 +310,8 @@ test("what a retired version left is served from an archive", async (t) => {
         const { body, headers } = found;
         response.writeHead(200, {
             "Content-Type": headers["content-type"], "Content-Length": body.length, "x-amz-meta-etag": headers["x-amz-meta-etag"],
-            ETag: `"${createHash("md5").update(body).digest("hex")}"`, "Last-Modified": new Date().toUTCString(),
+            "x-amz-meta-mtime": headers["x-amz-meta-mtime"], "x-amz-request-id": "1", ETag: `"${createHash("md5").update(body).digest("hex")}"`,
+            "Last-Modified": new Date().toUTCString(),
         });
         response.end(request.method === "HEAD" ? undefined : body);
     });
@@ -313,6 +320,8 @@ test("what a retired version left is served from an archive", async (t) => {
     t.after(() => store.closeAllConnections());
     const own = fleet.folder(t), manifest = path.join(own, "list"), out = path.join(own, "set");
     const targets = [1, 2, 3].map((k) => `/v1/mushrooms/boletus_edulis:0.5,amanita_muscaria:0.5.glb?seed=${k}&lod=1&texture_size=512`);
+    const linked = "/v1/mushrooms/boletus_edulis.glb?seed=1&lod=3&texture_size=128&textures=linked";
+    targets.push(linked, "/v1/worlds/beech,seed=7/y0/maps/height.json", "/v1/worlds/beech,seed=7/y0/maps/height.png?size=65");
     writeFileSync(manifest, `${targets.join("\n")}\n/v1/mushrooms/none.glb\n`);
     const retired = ["--atlas", otherTemplates(t)];
     const bake = (...more) => execFileSync(fleet.binary, ["bake", manifest, "--out", out, ...more, ...retired], { stdio: "pipe" });
@@ -323,26 +332,66 @@ test("what a retired version left is served from an archive", async (t) => {
         RCLONE_CONFIG_S_ACCESS_KEY_ID: "id", RCLONE_CONFIG_S_SECRET_ACCESS_KEY: "secret",
         RCLONE_CONFIG_S_ENDPOINT: `http://127.0.0.1:${store.address().port}`, RCLONE_CONFIG_S_FORCE_PATH_STYLE: "true",
     };
-    const archive = () => fleet.ended("server/edge/archive", [out, "s:bucket"], environment);
-    assert.equal((await archive()).status, 2, "It is not finished.");
+    const archive = (from = out) => fleet.ended("server/edge/archive", [from, "s:bucket"], environment);
+    const unfinished = await archive();
+    assert.equal(unfinished.status, 2);
+    assert.match(unfinished.output, /not complete/);
     bake("--finish");
+    // What bake may add: an address as the list spelled it.
+    const index = path.join(out, "000000.jsonl");
+    const lines = fleet.textOf(index).trim().split("\n").map((line) => JSON.parse(line));
+    const { url: canonical } = lines.find(({ url }) => url?.includes("linked")), version = canonical.match(/v=([^&]+)/)[1];
+    assert.doesNotMatch(canonical, /seed=/);
+    const spelled = `${linked}&v=${version}`;
+    writeFileSync(index, lines.map((line) => JSON.stringify(line.url === canonical ? { ...line, listed: spelled } : line) + "\n").join(""));
     const done = await archive();
     assert.equal(done.status, 0, done.output);
-    assert.equal(objects.size, 3);
+    assert.equal(objects.size, targets.length + 1);
+    assert.match(done.output, /link to 3 files that are not in/);
+    assert.match(done.output, new RegExp(`^/v1/mushrooms/boletus_edulis/base_color\\.jpg\\?.*v=${version}$`, "m"));
+    assert.match(done.output, /archive: 7 objects$/m);
+    const before = puts;
+    assert.equal((await archive()).status, 0);
+    assert.equal(puts, before, "What is there is not sent again.");
+    objects.delete(`/bucket${canonical}`);
+    assert.equal((await archive()).status, 0);
+    assert.equal(puts, before + 1);
+    refusing = true;
+    objects.delete(`/bucket${canonical}`);
+   const failed = await archive();
+    refusing = false;
+    assert.equal(failed.status, 1);
+    assert.match(failed.output, /1 objects of .* could not be written/);
+    assert.equal((await archive()).status, 0);
+    const files = path.join(own, "files");
+    for (const more of [[], ["--finish"]]) execFileSync(fleet.binary, ["bake", manifest, "--out", files, "--layout", "files", ...more, ...retired], { stdio: "pipe" });
+    const folder = await archive(files);
+    assert.equal(folder.status, 2);
+    assert.match(folder.output, /has the layout files; bake it with --layout tar/);
     const today = await fleet.replica(t);
     const edge = await fleet.nginx(t, [
         ...["--pool", `${generation}=127.0.0.1:${today.port}`, "--archive", `127.0.0.1:${store.address().port}/bucket`],
     ]);
-    for (const line of fleet.textOf(path.join(out, "000000.jsonl")).trim().split("\n").slice(1)) {
-        const { url, etag, sha256 } = JSON.parse(line);
+    const own200 = (await ask(today.port, targets[0])).headers;
+    for (const { url, etag, sha256, type, listed } of lines.slice(1).flatMap((line) => [line, ...(line.listed ? [{ ...line, url: line.listed }] : [])])) {
         if (!url) continue;
         assert.equal((await ask(today.port, url)).status, 410, url);
-        const kept = await ask(edge.port, url);
-        assert.equal(kept.status, 200, url);
-        assert.equal(kept.headers.etag, etag);
-        assert.equal(kept.headers["content-type"], "model/gltf-binary");
-        assert.match(kept.headers["cache-control"], /immutable/);
-        assert.equal(createHash("sha256").update(kept.body).digest("hex"), sha256);
+        const archived = await ask(edge.port, url);
+        assert.equal(archived.status, 200, url);
+        assert.equal(createHash("sha256").update(archived.body).digest("hex"), sha256);
+        const again = await ask(edge.port, url, { headers: { "If-None-Match": etag } });
+        assert.equal(again.status, 304, url);
+        for (const { headers } of [archived, again]) {
+            assert.equal(headers.etag, etag);
+            assert.equal(headers["cache-control"], "public, max-age=31536000, immutable");
+            for (const name of Object.keys(own200).filter((one) => /^access-control|^cross-origin|^timing|^x-content/.test(one)))
+                assert.equal(headers[name], own200[name], name);
+            assert.deepEqual(Object.keys(headers).filter((one) => /^x-amz|last-modified/.test(one)), []);
+        }
+        assert.equal(archived.headers["content-type"], type);
+        assert.equal(archived.headers["cache-status"], "edge; fwd=miss; detail=archive");
+        assert.equal(again.headers["cache-status"], "edge; hit; detail=archive");
+        assert.equal((await ask(edge.port, url, { headers: { "If-None-Match": '"other"' } })).status, 200);
     }
     const gone = await ask(edge.port, `${targets[0]}&v=${generation}-00000000`);
     assert.equal(gone.status, 410);
