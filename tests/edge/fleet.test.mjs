@@ -287,6 +287,11 @@ test("the most frequent addresses are compared before an upgrade", async (t) => 
     const coloured = canary(before, after, "0");
     assert.equal(coloured.status, 0, "Colours alone are to be looked at.");
     assert.equal(coloured.stdout, "2 compared, 0 different, bytes differ in 1\n");
+    writeFileSync(list, "/v1/trees/a.glb\n");
+    const generatorIs = (text) => fleet.fake(t, (request, response) => response.end(request.method === "POST" ? "{}" : `glTF{"asset":{"generator":"Sporeprint ${text}`));
+    const named = await Promise.all(['37"}}', '38"}}', '38"},"a":1}'].map(generatorIs));
+    assert.match((await fleet.ended("server/edge/canary", [url(named[0]), url(named[1]), list])).output, /bytes differ in 0/);
+    assert.match((await fleet.ended("server/edge/canary", [url(named[0]), url(named[2]), list])).output, /bytes differ in 1/);
     writeFileSync(list, "# none\n");
     const none = canary(before, before);
     assert.equal(none.status, 2);
@@ -365,18 +370,17 @@ test("what a retired version left is served from an archive", async (t) => {
     const before = puts;
     assert.equal((await archive()).status, 0);
     assert.equal(puts, before, "What is there is not sent again.");
-    objects.delete(`/bucket${canonical}`);
-    assert.equal((await archive()).status, 0);
-    assert.equal(puts, before + 1);
     refusing = true;
     objects.delete(`/bucket${canonical}`);
-   const failed = await archive();
+    const failed = await archive();
     refusing = false;
     assert.equal(failed.status, 1);
     assert.match(failed.output, /1 objects of .* could not be written/);
     assert.equal((await archive()).status, 0);
+    assert.equal(puts, before + 2);
     const files = path.join(own, "files");
-    for (const more of [[], ["--finish"]]) execFileSync(fleet.binary, ["bake", manifest, "--out", files, "--layout", "files", ...more, ...retired], { stdio: "pipe" });
+    mkdirSync(files);
+    writeFileSync(path.join(files, "bake.json"), JSON.stringify({ layout: "files" }));
     const folder = await archive(files);
     assert.equal(folder.status, 2);
     assert.match(folder.output, /has the layout files; bake it with --layout tar/);
@@ -509,13 +513,11 @@ test("HAProxy and a replica agree about signed addresses", async (t) => {
     const pinned = (await ask(open.port, plain)).headers["content-location"];
     assert.match(pinned, /v=/);
     const good = signed(plain), soon = signed(plain, "--sign-for", "20"), brief = signed(plain, "--sign-for", "1");
-    const long = ["--sign-for", "86400"];
-    await fleet.sleep(2100);
+    const long = ["--sign-for", "86400"], signedAt = performance.now();
     const cases = [
         [good, 200],
         [signed(bare), 200],
         [soon, 200],
-        [brief, 403],
         [plain, 403],
         [good.replace(/sig=./, "sig=-"), 403],
         [good.replace("lod=3", "lod=2"), 403],
@@ -533,12 +535,14 @@ test("HAProxy and a replica agree about signed addresses", async (t) => {
         [signed(`${plain}&v=${generation}-00000000`, ...long), 410],
         ["/v1/mushrooms/schema", 200],
         ["/v1/mushrooms?expires=9999999999", 400],
+        [brief, 403],
     ];
     const freshness = ({ headers }) => {
         const text = headers["cache-control"], [age] = text.match(/(?<=max-age=)\d+/) ?? ["0"];
         return { text: text.replace(/\d+/, "N"), age: Number(age) };
     };
-    for (const [target, status] of cases)
+    for (const [target, status] of cases) {
+        if (target === brief) await fleet.sleep(Math.max(0, signedAt + 2100 - performance.now()));
         for (const headers of [{}, { "If-None-Match": "*" }]) {
             const by = { edge: await ask(edge.port, target, { headers }), replica: await ask(closed.port, target, { headers }) };
             assert.equal(by.edge.status, by.replica.status, target);
@@ -547,12 +551,13 @@ test("HAProxy and a replica agree about signed addresses", async (t) => {
             const [ours, theirs] = [freshness(by.edge), freshness(by.replica)];
             assert.equal(ours.text, theirs.text, target);
             assert.ok(Math.abs(ours.age - theirs.age) <= 1, `${target}: ${ours.age}, ${theirs.age}`);
-            if (target === soon) assert.ok(ours.age > 0 && ours.age <= 18, `${ours.age} s`);
+            if (target === soon) assert.ok(ours.age > 0 && ours.age <= 20, `${ours.age} s`);
             assert.equal(by.edge.headers["content-location"], by.replica.headers["content-location"], target);
             if (status !== 403) continue;
             assert.equal(by.edge.headers["content-type"], "application/problem+json");
             assert.equal(JSON.parse(by.edge.body).status, 403);
         }
+    }
 });
 
 test("every edge hides what is the operator's, and HAProxy with keys what it does not know, below a base path", async (t) => {
@@ -561,7 +566,7 @@ test("every edge hides what is the operator's, and HAProxy with keys what it doe
     const one = await fleet.replica(t, ["--base-path", "/sp"]);
     const pool = ["--pool", `${generation}=127.0.0.1:${one.port}`];
     const made = "/sp/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none";
-    for (const edge of [await fleet.nginx(t, pool), await fleet.varnish(t, pool), await fleet.haproxy(t, pool)]) {
+    for (const edge of await Promise.all([fleet.nginx(t, pool), fleet.varnish(t, pool), fleet.haproxy(t, pool)])) {
         for (const hidden of ["/metrics", "/sp/metrics", "/sp/readyz?x=1", "/sp/livez"]) assert.equal((await ask(edge.port, hidden)).status, 404, hidden);
         for (const shown of [made, "/sp/v1/species", "/sp/v1/mushrooms/schema"]) assert.equal((await ask(edge.port, shown)).status, 200, shown);
     }
@@ -608,16 +613,20 @@ test("HAProxy lets nothing through that a replica with keys would not", async (t
     assert.equal((await ask(edge.port, "/%6detrics")).status, 404);
 });
 
-for (const kind of ["nginx", "varnish"])
-    test(`HAProxy stands in front of ${kind}`, async (t) => {
-        const keys = path.join(fleet.folder(t), "keys");
-        writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
-        const one = await fleet.replica(t, ["--client-work", "1", "--client-burst", "25", "--trusted-proxies", "127.0.0.1"]);
-        const cache = await fleet[kind](t, ["--pool", `${generation}=127.0.0.1:${one.port}`]);
-        const edge = await fleet.haproxy(t, ["--edges", `127.0.0.1:${cache.port}`, "--keys", keys]);
-        const sign = (target) => execFileSync(fleet.binary, ["--sign-keys", keys, "--sign", target], { encoding: "utf8" }).trim();
-        // The health of an edge is checked twice.
-        await fleet.sleep(2500);
+test("HAProxy stands in front of nginx and of Varnish", async (t) => {
+    const keys = path.join(fleet.folder(t), "keys");
+    writeFileSync(keys, "k1 00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff\n");
+    const sign = (target) => execFileSync(fleet.binary, ["--sign-keys", keys, "--sign", target], { encoding: "utf8" }).trim();
+    const edges = await Promise.all(
+        ["nginx", "varnish"].map(async (kind) => {
+            const one = await fleet.replica(t, ["--client-work", "1", "--client-burst", "25", "--trusted-proxies", "127.0.0.1"]);
+            const cache = await fleet[kind](t, ["--pool", `${generation}=127.0.0.1:${one.port}`]);
+            return fleet.haproxy(t, ["--edges", `127.0.0.1:${cache.port}`, "--keys", keys]);
+        }),
+    );
+    // Whoever does not pass two checks, one a second, is taken out.
+    await fleet.sleep(2500);
+    for (const edge of edges) {
         const small = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none";
         assert.equal((await ask(edge.port, small)).status, 403);
         for (const seen of [/fwd=miss/, /^edge; hit/]) {
@@ -628,10 +637,11 @@ for (const kind of ["nginx", "varnish"])
         // Each client has a budget, although two proxies are between.
         const large = (k) => sign(`/v1/mushrooms/boletus_edulis.glb?lod=0&texture_size=1024&seed=${k}`);
         const statuses = [];
-        for (let k = 0; k < 6; ++k) statuses.push((await ask(edge.port, large(k), { local: "127.0.0.2" })).status);
+        for (let k = 0; k < 2; ++k) statuses.push((await ask(edge.port, large(k), { local: "127.0.0.2" })).status);
         assert.equal(statuses.at(-1), 429, statuses.join());
         assert.equal((await ask(edge.port, large(9), { local: "127.0.0.3" })).status, 200);
-    });
+    }
+});
 
 test("behind nginx each client has its budget, and a forged address changes nothing", async (t) => {
     const one = await fleet.replica(t, [
