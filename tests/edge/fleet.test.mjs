@@ -217,6 +217,11 @@ for (const kind of ["nginx", "varnish", "haproxy"])
         const replicas = await Promise.all(
             busy.map((_, i) =>
                 fleet.fake(t, async (request, response) => {
+                    if (request.method === "POST") {
+                        let bytes = 0;
+                        for await (const part of request) bytes += part.length;
+                        return i ? response.writeHead(503).end() : response.end(String(bytes));
+                    }
                     if (!request.url.startsWith("/v1/mushrooms/")) return response.end("free");
                     if (busy[i] >= 20) return response.writeHead(503, { "Retry-After": "7" }).end("full");
                     ++busy[i];
@@ -242,6 +247,9 @@ for (const kind of ["nginx", "varnish", "haproxy"])
         assert.deepEqual(Object.keys(counts), ["200", "503"], JSON.stringify(counts));
         // All have room for 60, each for 20.
         assert.deepEqual(new Set((await burst(45, "few")).map(({ status }) => status)), new Set([200]));
+        // Two of three are full for what is sent, with its body.
+        if (kind !== "haproxy")
+            for (let k = 0; k < 10; ++k) assert.equal((await ask(edge.port, "/v1/sets.glb", { method: "POST", body: "x".repeat(100_000) })).body.toString(), "100000");
         // One dies.
         replicas[0].close();
         const began = performance.now();
@@ -306,6 +314,7 @@ test("the most frequent addresses are compared before an upgrade", async (t) => 
 test("what a retired version left is served from an archive", async (t) => {
     // An object store, as far as rclone and nginx use it.
     const objects = new Map();
+    const reads = [];
     let puts = 0, refusing = false;
     const store = http.createServer((request, response) => {
         const key = decodeURIComponent(request.url.split("?")[0]);
@@ -322,6 +331,7 @@ test("what a retired version left is served from an archive", async (t) => {
             });
             return;
         }
+        reads.push(request.url);
         const found = objects.get(key);
         if (!found) return response.writeHead(404).end();
         const { body, headers } = found;
@@ -408,6 +418,11 @@ test("what a retired version left is served from an archive", async (t) => {
         assert.equal(archived.headers["cache-status"], "edge; fwd=miss; detail=archive");
         assert.equal(again.headers["cache-status"], "edge; hit; detail=archive");
         assert.equal((await ask(edge.port, url, { headers: { "If-None-Match": '"other"' } })).status, 200);
+    }
+    for (const other of ["/%3Flist-type=2", "/", "/a?b?acl", "/a%0d%0aX:%20y"]) {
+        const before = reads.length;
+        assert.equal((await ask(edge.port, other, { headers: { Host: "archive.invalid" } })).status, 404, other);
+        assert.doesNotMatch(reads.slice(before).join(), /\?|bucket\/$|\r/, "No list of the bucket.");
     }
     const gone = await ask(edge.port, `${targets[0]}&v=${generation}-00000000`);
     assert.equal(gone.status, 410);
