@@ -22,7 +22,9 @@ std::uint64_t image_bytes(std::uint64_t texels) { return texels / 6 + 1500; }
 void add_images(Estimate& e, const LeafParams& params) {
     const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
-    add_image_bytes(e, image_bytes(e.texels), params.textures, params.file);
+    // A PNG file with alpha has about 0.9 byte per texel of its own.
+    const std::uint64_t alpha = has_alpha(paint_of(params)) ? 3 * e.texels / 10 : 0;
+    add_image_bytes(e, image_bytes(e.texels) + alpha, params.textures, params.file);
 }
 
 /// Estimated distance of the border of a level of detail from that of LOD 0, in lengths of the

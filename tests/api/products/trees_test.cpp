@@ -44,12 +44,12 @@ TEST_F(TreesTest, NeedlesHaveABaseColourWithAlpha) {
     const std::string root = "/v1/trees/leaves/shoot/base_color";
     for (const auto& [ending, type] :
          {std::pair("png", "image/png"), std::pair("webp", "image/webp")}) {
-        const Response image = ask(root + "." + ending + "?texture_size=128");
+        const Response image = ask(root + "." + ending + "?side=128");
         ASSERT_EQ(image.status, 200) << text_of(image);
         EXPECT_EQ(header(image, "Content-Type"), type);
     }
-    EXPECT_TRUE(text_of(ask(root + ".png?texture_size=128")).starts_with("\x89PNG"));
-    EXPECT_EQ(ask("/v1/trees/leaves/shoot/normal.jpg?texture_size=128").status, 200);
+    EXPECT_TRUE(text_of(ask(root + ".png?side=128")).starts_with("\x89PNG"));
+    EXPECT_EQ(ask("/v1/trees/leaves/shoot/normal.jpg?side=128").status, 200);
     // What does not exist says what does.
     const std::vector<std::string> missing = {root + ".jpg", "/v1/trees/leaves/shoot/normal.png",
                                               "/v1/trees/leaves/oak/base_color.png"};
