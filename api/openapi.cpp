@@ -127,7 +127,10 @@ Value parameters_of(const RouteGroup& group, const Route& route, const DocumentI
                                        text, problem_types().front().slug));
     if (has("{image}")) {
         Value names = Value::array();
-        for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) names.push(one);
+        // The base colour alone has alpha, and is a PNG file.
+        const bool is_png = pattern.ends_with(".png");
+        for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i)
+            if (!is_png || static_cast<ImageKind>(i) == ImageKind::base_color) names.push(one);
         parameters.push(path_parameter("image", "Which image of the atlas.",
                                        object({{"type", "string"}, {"enum", names}}),
                                        "base_color"));

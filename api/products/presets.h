@@ -208,8 +208,8 @@ ImageUrls preset_image_urls(const Atlas& atlas, const std::string& folder,
                             const std::string& preset, const Paint& paint,
                             const std::string& version) {
     return image_urls_of([&](ImageKind kind, ImageFormat format) {
-        const bool is_png = format == ImageFormat::jpg && kind == ImageKind::base_color &&
-                            is_clear_in_parts(paint);
+        const bool is_png =
+            format == ImageFormat::jpg && kind == ImageKind::base_color && is_clear_in_parts(paint);
         return with_version(
             canonical_image_address<Kind>(atlas, folder, preset, kind,
                                           is_png ? ImageFormat::png : format, paint),
@@ -373,18 +373,18 @@ Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) 
     const auto requested =
         read_preset_surface<Kind>(atlas, call.captured[0], call.captured[1], query, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    // PNG is the format of a base colour with alpha beside JPEG files, and of nothing else.
-    const bool is_clear =
-        requested.kind == ImageKind::base_color && is_clear_in_parts(requested.paint);
-    if (Format != ImageFormat::webp && is_clear != (Format == ImageFormat::png)) {
+    if (Format == ImageFormat::png && requested.kind != ImageKind::base_color) {
         call.errors.add(404, "image",
-                        in_quotes(file_of(*requested.kind, Format)) + " does not exist: this image " +
-                            (is_clear ? "has alpha" : "is opaque") + "; ask for " +
-                            file_of(*requested.kind, is_clear ? ImageFormat::png : ImageFormat::jpg) +
-                            " or " + file_of(*requested.kind, ImageFormat::webp));
+                        in_quotes(file_of(*requested.kind, Format)) +
+                            " does not exist: base_color alone is a PNG file; ask for " +
+                            file_of(*requested.kind, ImageFormat::jpg) + " or " +
+                            file_of(*requested.kind, ImageFormat::webp));
         return context.responses.problem(call.request, call.errors);
     }
-    constexpr ImageFormat painted = Format == ImageFormat::webp ? Format : ImageFormat::jpg;
+    // What stands beside a base colour with alpha is of the set of that one.
+    const bool is_beside = Format == ImageFormat::jpg && requested.kind != ImageKind::base_color &&
+                           is_clear_in_parts(requested.paint);
+    const ImageFormat painted = is_beside ? ImageFormat::png : Format;
     const auto decide = [&](ValidationErrors& found) {
         return paint_work(context, requested.paint, Kind::cost_of_paint(requested.paint), painted,
                           found);

@@ -131,6 +131,10 @@ std::string image_key(const LeafPaint& paint, ImageFormat format) {
 
 bool has_alpha(const LeafPaint& paint) { return has_shoot(paint.venation); }
 
+ImageFormat format_in_files(const LeafPaint& paint, ImageFormat format) {
+    return format == ImageFormat::jpg && has_alpha(paint) ? ImageFormat::png : format;
+}
+
 double alpha_cutoff_of(const LeafPaint& paint) {
     return has_alpha(paint) ? leaf_alpha_cutoff : 0.0;
 }
@@ -182,9 +186,11 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     scene.materials.push_back({.name = leaf_material_name(spec.preset, paint, params.textures),
                                .transmission = transmission_of_leaves(params.file),
                                .alpha_cutoff = alpha_cutoff_of(paint)});
-    const EmbeddedImages images = attach_images(
-        scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
-        [&](ImageFormat format) { return painted_images(paint, execution, format); });
+    const EmbeddedImages images =
+        attach_images(scene.materials.front(), params.textures, params.file, extras.image_urls,
+                      execution, [&](ImageFormat format) {
+                          return painted_images(paint, execution, format_in_files(paint, format));
+                      });
     execution.observer(Step::pack);
     Grown grown;
     std::vector<std::vector<GlbPrimitive>> primitives;

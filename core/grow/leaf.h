@@ -42,14 +42,18 @@ namespace sporeprint {
 /// Returns the cache key of a leaf's images: equal keys, equal images.
 [[nodiscard]] std::string image_key(const LeafPaint& paint, ImageFormat format);
 
-/// Returns whether the base colour has alpha: it is then no JPEG file but PNG, also beside JPEG files.
+/// Returns whether the base colour has alpha.
 [[nodiscard]] bool has_alpha(const LeafPaint& paint);
+
+/// Returns the format of the images in files: a base colour with alpha is a PNG file beside JPEG files.
+[[nodiscard]] ImageFormat format_in_files(const LeafPaint& paint, ImageFormat format);
 
 /// Returns the alpha below which texels of a leaf are not drawn; 0 if all are.
 [[nodiscard]] double alpha_cutoff_of(const LeafPaint& paint);
 
 /// Returns the images, cached in execution.caches or painted now.
 ///
+/// format   as encoded() has it: of JPEG images none has alpha
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
                                                              const ExecutionContext& execution,

@@ -510,9 +510,11 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
             {.name = leaf_material_name(params.look.leaf.id.string(), paint, params.textures),
              .transmission = transmission_of_leaves(params.file),
              .alpha_cutoff = alpha_cutoff_of(paint)});
-        leaf_images = attach_images(
-            scene.materials[1], params.textures, params.file, leaf_urls, execution,
-            [&](ImageFormat format) { return painted_images(paint, execution, format); });
+        leaf_images = attach_images(scene.materials[1], params.textures, params.file, leaf_urls,
+                                    execution, [&](ImageFormat format) {
+                                        return painted_images(paint, execution,
+                                                              format_in_files(paint, format));
+                                    });
     }
     execution.observer(Step::pack);
     const Bounds box = has_meshes ? bounds(meshes.front()) : impostor->box;

@@ -347,9 +347,8 @@ class LeafPainter {
         for (std::size_t x = column(first_clear); x < column(last_clear); ++x)
             for (const std::size_t at : {y * count_ + x, y * count_ + x + count_ / 2})
                 images_.alpha[at] = 0;
-        paint_panel(y, along, shoot_panel, [this](double up, double across) {
-            return shoot_at(up, across, 1.0);
-        });
+        paint_panel(y, along, shoot_panel,
+                    [this](double up, double across) { return shoot_at(up, across, 1.0); });
         paint_panel(y, along, spray_panel,
                     [this](double up, double across) { return spray_at(up, across); });
     }
@@ -414,7 +413,8 @@ class LeafPainter {
             if (k + 1 == layers.size() && out < 0.05 * (1.1 - along))
                 put(0.8 * petiole_, 0.8 * petiole_, 0.0, 0.7);
             // Two needles can meet at a point, since each leans by itself.
-            const double nearest = (along - layer.ahead * out / std::sqrt(dense)) * layer.count * dense;
+            const double nearest =
+                (along - layer.ahead * out / std::sqrt(dense)) * layer.count * dense;
             for (int next = -1; next <= 1; ++next) {
                 const double index = std::floor(nearest) + next;
                 const glm::dvec2 own =
@@ -490,10 +490,9 @@ class LeafPainter {
             for (int i = 0; i < points * points; ++i) {
                 const double dx = (i % points + 0.5) / points - 0.5,
                              dy = (i / points + 0.5) / points - 0.5;
-                const ShootPoint one =
-                    point(along + dy / (side() * panel_length),
-                          ((static_cast<double>(x) + 0.5 + dx) / side() - panel.middle) /
-                              panel.half);
+                const ShootPoint one = point(
+                    along + dy / (side() * panel_length),
+                    ((static_cast<double>(x) + 0.5 + dx) / side() - panel.middle) / panel.half);
                 if (!one.is_needle) continue;
                 covered += 1.0;
                 sum.upper += one.upper;
@@ -699,7 +698,7 @@ class LeafPainter {
     double share_;        // weight of a point in its texel
     glm::dvec3 petiole_{0.0};
     LeafColourMap::Faces needle_, young_;       // colours of a needle and of its tip
-    bool has_panels_ = false;                    // whether shoots are painted beside a needle
+    bool has_panels_ = false;                   // whether shoots are painted beside a needle
     std::vector<double> columns_;               // x in the plane of the lamina, by point
     std::array<std::vector<float>, 2> across_;  // the same in units of the noise lattice
     std::size_t tile_;                          // texels across

@@ -29,7 +29,8 @@ class Cutout {
 
     [[nodiscard]] bool shows(int x, int y) const {
         if (alpha_ == nullptr) return true;
-        const glm::vec3 at = origin_ + static_cast<float>(x) * along_ + static_cast<float>(y) * down_;
+        const glm::vec3 at =
+            origin_ + static_cast<float>(x) * along_ + static_cast<float>(y) * down_;
         const float sum = at.x + at.y + at.z;
         if (!(sum * sum > 0.0F)) return true;
         const glm::vec3 w = at / sum;
@@ -40,9 +41,10 @@ class Cutout {
   private:
     const Texture* alpha_ = nullptr;
     float cutoff_ = 0.0F;
-    float texels_ = 1.0F;  ///< between two samples
+    float texels_ = 1.0F;                 ///< between two samples
     std::array<glm::vec2, 3> corners_{};  ///< in the image
-    glm::vec3 origin_{0.0F}, along_{0.0F}, down_{0.0F};  ///< weights of the corners, times their sum
+    glm::vec3 origin_{0.0F}, along_{0.0F},
+        down_{0.0F};  ///< weights of the corners, times their sum
 };
 
 }  // namespace sporeprint::render

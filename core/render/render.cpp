@@ -141,12 +141,12 @@ SeenScene visible(const DrawList& list, const Camera& camera, int columns, int r
     tasks.clear();
     const SampleRays rays = rays_of(camera, columns, rows);
     for (int part = 0; part < visible_bands; ++part)
-        tasks.emplace_back([&, from = rows * part / visible_bands,
-                            to = rows * (part + 1) / visible_bands] {
-            for (std::size_t d = 0; d < images.size(); ++d)
-                found.show(d, images[d].indices, images[d].corners, from, to, images[d].parts.of,
-                           cutouts_of(list, d, found.seen[d], rays));
-        });
+        tasks.emplace_back(
+            [&, from = rows * part / visible_bands, to = rows * (part + 1) / visible_bands] {
+                for (std::size_t d = 0; d < images.size(); ++d)
+                    found.show(d, images[d].indices, images[d].corners, from, to,
+                               images[d].parts.of, cutouts_of(list, d, found.seen[d], rays));
+            });
     parallel(tasks);
     return found;
 }

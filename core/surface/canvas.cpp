@@ -123,8 +123,16 @@ ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& paral
 }
 
 ImageSet encoded(const RawImages& images, ImageFormat format, const Parallel& parallel) {
-    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.alpha, images.side,
-                   images.side, format, parallel);
+    const std::array<std::span<const std::uint8_t>, 3> rgb = {images.rgb[0], images.rgb[1],
+                                                              images.rgb[2]};
+    const bool is_png = format == ImageFormat::png;
+    Bytes opaque;
+    std::span<const std::uint8_t> alpha;
+    if (format != ImageFormat::jpg) alpha = images.alpha;
+    if (is_png && alpha.empty())
+        alpha = opaque = Bytes(images.rgb[0].size() / 3, std::uint8_t{255});
+    return encoded(rgb, alpha, images.side, images.side, is_png ? ImageFormat::jpg : format,
+                   parallel);
 }
 
 RawImages raw(const Canvas& canvas) {

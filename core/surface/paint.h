@@ -126,6 +126,9 @@ struct PaintParams {
                              ImageFormat format = ImageFormat::jpg);
 
 /// Encodes pixels as paint() does.
+///
+/// format  jpg: without alpha; png: the base colour is a PNG file with alpha, the others are JPEG files; webp: the base
+///         colour has alpha if the pixels have
 [[nodiscard]] ImageSet encoded(const RawImages& images, ImageFormat format,
                                const Parallel& parallel = in_turn);
 

@@ -235,10 +235,9 @@ BakeEnd finish(const BakeSet& set, std::size_t threads) {
 void warn_of_idle(const BakeSet& set, const Share& share) {
     if (share.of <= set.shards() || share.which != 0) return;
     const std::uint64_t best = std::max<std::uint64_t>(1, set.count / share.of);
-    say("there are " + grouped(set.shards()) + " shards, so " +
-        grouped(share.of - set.shards()) + " of " + grouped(share.of) +
-        " processes have nothing to do; \"per_shard\": " + std::to_string(best) +
-        " in the manifest gives work to all");
+    say("there are " + grouped(set.shards()) + " shards, so " + grouped(share.of - set.shards()) +
+        " of " + grouped(share.of) + " processes have nothing to do; \"per_shard\": " +
+        std::to_string(best) + " in the manifest gives work to all");
 }
 
 /// Makes the shards of a share that are not there.

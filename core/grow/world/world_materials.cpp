@@ -59,7 +59,9 @@ std::size_t WorldMaterials::leaves(const std::string& name, const std::string& l
         material.alpha_cutoff = alpha_cutoff_of(paint);
         attach(
             material, textures_, [&] { return urls_.leaves(leaf, paint); },
-            [&](ImageFormat format) { return painted_images(paint, execution_, format); });
+            [&](ImageFormat format) {
+                return painted_images(paint, execution_, format_in_files(paint, format));
+            });
     });
 }
 

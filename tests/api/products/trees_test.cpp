@@ -50,9 +50,12 @@ TEST_F(TreesTest, NeedlesHaveABaseColourWithAlpha) {
     }
     EXPECT_TRUE(text_of(ask(root + ".png?side=128")).starts_with("\x89PNG"));
     EXPECT_EQ(ask("/v1/trees/leaves/shoot/normal.jpg?side=128").status, 200);
+    // JPEG files have no alpha, and a PNG file shows others as they are.
+    EXPECT_EQ(header(ask(root + ".jpg?side=128"), "Content-Type"), "image/jpeg");
+    EXPECT_EQ(ask("/v1/trees/leaves/oak/base_color.png?side=128").status, 200);
     // What does not exist says what does.
-    const std::vector<std::string> missing = {root + ".jpg", "/v1/trees/leaves/shoot/normal.png",
-                                              "/v1/trees/leaves/oak/base_color.png"};
+    const std::vector<std::string> missing = {"/v1/trees/leaves/shoot/normal.png",
+                                              "/v1/trees/leaves/oak/orm.png"};
     for (const std::string& address : missing) {
         const Response refused = ask(address);
         EXPECT_EQ(refused.status, 404) << address;

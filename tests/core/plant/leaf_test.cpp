@@ -98,8 +98,7 @@ TEST(Leaf, FoliageKeepsTheAreaOfTheLamina) {
             const Mesh mesh = foliage_leaf(flat, triangles);
             EXPECT_LE(mesh.triangles(), triangles) << preset.id.string();
             // The star of a compound leaf is thicker in its middle.
-            EXPECT_NEAR(seen_area(mesh) / all, 1.0,
-                        flat.leaflets.count > 0 ? 1e-3 : 1e-4)
+            EXPECT_NEAR(seen_area(mesh) / all, 1.0, flat.leaflets.count > 0 ? 1e-3 : 1e-4)
                 << preset.id.string();
         }
     }

@@ -190,6 +190,8 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     const vein = { params: { path: { preset: "maple", image: "orm" }, query: { side: 128 } } } as const;
     await both(client.HEAD("/v1/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
     await both(client.HEAD("/v1/leaves/{preset}/{image}.webp", vein), client.GET("/v1/leaves/{preset}/{image}.webp", { ...vein, ...binary }));
+    const shoot = { params: { path: { preset: "shoot", image: "base_color" }, query: { side: 128 } } } as const;
+    await both(client.HEAD("/v1/leaves/{preset}/{image}.png", shoot), client.GET("/v1/leaves/{preset}/{image}.png", { ...shoot, ...binary }));
 
     await both(client.HEAD("/v1/trees", {}), client.GET("/v1/trees", {}));
     await both(client.HEAD("/v1/trees/schema", {}), client.GET("/v1/trees/schema", {}));
@@ -205,6 +207,7 @@ export async function callAll(baseUrl: string, token: string): Promise<Map<strin
     await client.POST("/v1/trees.glb", { body: { ...tree, ...small }, ...binary });
     await both(client.HEAD("/v1/trees/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/trees/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
     await both(client.HEAD("/v1/trees/leaves/{preset}/{image}.webp", vein), client.GET("/v1/trees/leaves/{preset}/{image}.webp", { ...vein, ...binary }));
+    await both(client.HEAD("/v1/trees/leaves/{preset}/{image}.png", shoot), client.GET("/v1/trees/leaves/{preset}/{image}.png", { ...shoot, ...binary }));
     const bark = { params: { path: { preset: "herb", image: "base_color" }, query: { side: 128 } } } as const;
     await both(client.HEAD("/v1/trees/{preset}/{image}.jpg", bark), client.GET("/v1/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
     await both(client.HEAD("/v1/trees/{preset}/{image}.webp", bark), client.GET("/v1/trees/{preset}/{image}.webp", { ...bark, ...binary }));
