@@ -488,8 +488,8 @@ class LeafPainter {
             ShootPoint sum{};
             double covered = 0.0;
             for (int i = 0; i < points * points; ++i) {
-                const double dx = (i % points + 0.5) / points - 0.5,
-                             dy = (i / points + 0.5) / points - 0.5;
+                const int row = i / points, across = i % points;
+                const double dx = (across + 0.5) / points - 0.5, dy = (row + 0.5) / points - 0.5;
                 const ShootPoint one = point(
                     along + dy / (side() * panel_length),
                     ((static_cast<double>(x) + 0.5 + dx) / side() - panel.middle) / panel.half);

@@ -49,12 +49,11 @@ std::string file_name_of(const BakedItem& item, std::string_view disposition) {
 }
 
 /// Returns the address of an item as a list spells it, with the version that its canonical address has in the query; the
-/// canonical one where something was drawn.
+/// canonical one where it has none there, or something was drawn.
 std::string listed_of(const BakedItem& item) {
-    if (!item.drawn.is_null()) return item.url;
     const std::size_t query = item.url.find('?'), at = item.url.find("v=", query);
-    if (query == item.url.npos || at == item.url.npos || item.target.find("v=") != item.url.npos)
-        return item.target;
+    if (!item.drawn.is_null() || query == item.url.npos || at == item.url.npos) return item.url;
+    if (item.target.find("v=") != item.url.npos) return item.target;
     const std::string version = item.url.substr(at, item.url.find('&', at) - at);
     return item.target + (item.target.find('?') == item.target.npos ? '?' : '&') + version;
 }
