@@ -193,13 +193,13 @@ std::string canonical_image_address(const Atlas& atlas, const std::string& folde
                       query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
 }
 
-/// Returns whether the base colour of a paint has alpha, which JPEG files cannot have.
+/// Returns the format of the base colour of a paint in files: JPEG files have no alpha.
 template <class Paint>
-bool is_clear_in_parts(const Paint& paint) {
-    if constexpr (requires { has_alpha(paint); })
-        return has_alpha(paint);
+ImageFormat format_of_colour(const Paint& paint, ImageFormat format) {
+    if constexpr (requires { format_in_files(paint, format); })
+        return format_in_files(paint, format);
     else
-        return false;
+        return format;
 }
 
 /// Returns the URLs of the three images of an atlas, with a version token.
@@ -208,12 +208,10 @@ ImageUrls preset_image_urls(const Atlas& atlas, const std::string& folder,
                             const std::string& preset, const Paint& paint,
                             const std::string& version) {
     return image_urls_of([&](ImageKind kind, ImageFormat format) {
-        const bool is_png =
-            format == ImageFormat::jpg && kind == ImageKind::base_color && is_clear_in_parts(paint);
-        return with_version(
-            canonical_image_address<Kind>(atlas, folder, preset, kind,
-                                          is_png ? ImageFormat::png : format, paint),
-            version);
+        const ImageFormat own =
+            kind == ImageKind::base_color ? format_of_colour(paint, format) : format;
+        return with_version(canonical_image_address<Kind>(atlas, folder, preset, kind, own, paint),
+                            version);
     });
 }
 
@@ -382,9 +380,9 @@ Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) 
         return context.responses.problem(call.request, call.errors);
     }
     // What stands beside a base colour with alpha is of the set of that one.
-    const bool is_beside = Format == ImageFormat::jpg && requested.kind != ImageKind::base_color &&
-                           is_clear_in_parts(requested.paint);
-    const ImageFormat painted = is_beside ? ImageFormat::png : Format;
+    const ImageFormat painted = requested.kind == ImageKind::base_color
+                                    ? Format
+                                    : format_of_colour(requested.paint, Format);
     const auto decide = [&](ValidationErrors& found) {
         return paint_work(context, requested.paint, Kind::cost_of_paint(requested.paint), painted,
                           found);

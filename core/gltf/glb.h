@@ -72,8 +72,8 @@ struct GlbMaterial {
     GlbTransmission transmission = {};
     /// Texels of the base colour with less alpha are not drawn; 0 for images without alpha.
     double alpha_cutoff = 0.0;
-    bool has_occlusion =
-        true;  ///< in the red channel of the third image; that of impostors has none
+    /// Whether the red channel of the third image is occlusion; in that of impostors it is not.
+    bool has_occlusion = true;
     std::string extras_json = {};  ///< a JSON object; empty for none. Embedded images only.
 };
 

@@ -23,7 +23,8 @@ void add_images(Estimate& e, const LeafParams& params) {
     const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
     // A PNG file with alpha has about 0.9 byte per texel of its own.
-    const std::uint64_t alpha = has_alpha(paint_of(params)) ? 3 * e.texels / 10 : 0;
+    const bool is_png = e.texels > 0 && has_alpha(paint_of(params));
+    const std::uint64_t alpha = is_png ? 3 * e.texels / 10 : 0;
     add_image_bytes(e, image_bytes(e.texels) + alpha, params.textures, params.file);
 }
 

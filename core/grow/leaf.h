@@ -19,7 +19,7 @@ namespace sporeprint {
 /// pre  check() reports nothing for the spec
 [[nodiscard]] LeafSpec at_level(LeafSpec spec);
 
-/// Returns upper bounds of vertices and triangles, texels and bytes; takes nanoseconds.
+/// Returns upper bounds of vertices and triangles, texels and bytes; takes microseconds.
 [[nodiscard]] Estimate estimate(const LeafSpec& spec);
 
 /// Returns the mesh alone: base of the petiole at the origin, the lamina along +z, its upper face

@@ -213,26 +213,23 @@ std::vector<glm::dvec2> mirrored(const std::vector<glm::dvec2>& half) {
     return border;
 }
 
-// Returns a card as fans about its centre.
+// Returns both faces as fans about a centre.
 //
+// border     all round, as seen from above
+// stretch    of the border and the centre across and along
 // thickness  at the centre
-Shell card_fan(const LeafPanel& panel, const Bending& bent, double thickness,
-               std::size_t triangles) {
-    std::vector<glm::dvec2> border;
-    const std::size_t between = triangles / 4 - 2;  // corners on each long side
-    for (const double side : {1.0, -1.0})
-        for (std::size_t i = 0; i < between + 2; ++i) {
-            const double up = static_cast<double>(i) / static_cast<double>(between + 1);
-            border.emplace_back(side, side > 0.0 ? up : 1.0 - up);
-        }
-    const glm::dvec2 centre(0.0, 0.5), breadth(panel.half_breadth, 1.0);
+// texture    called with a place of the border, or the centre, and whether the upper face is meant
+template <class Texture>
+Shell fan_shell(const std::vector<glm::dvec2>& border, const glm::dvec2& centre,
+                const glm::dvec2& stretch, double thickness, const Bending& bent,
+                const Texture& texture) {
     Shell shell;
     const auto count = static_cast<std::uint32_t>(border.size());
     for (const bool upper : {true, false}) {
         for (const glm::dvec2& place : border)
-            shell.add(bent.at(breadth * place, 0.0), card_texture(panel, place, upper));
-        shell.add(bent.at(breadth * centre, upper ? 0.5 * thickness : -0.5 * thickness),
-                  card_texture(panel, centre, upper));
+            shell.add(bent.at(stretch * place, 0.0), texture(place, upper));
+        const double lift = upper ? 0.5 * thickness : -0.5 * thickness;
+        shell.add(bent.at(stretch * centre, lift), texture(centre, upper));
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t next = (i + 1) % count, below = count + 1;
@@ -242,29 +239,34 @@ Shell card_fan(const LeafPanel& panel, const Bending& bent, double thickness,
     return shell;
 }
 
+// Returns the border of a card, from -1 to 1 across and from 0 to 1 along, with so many corners on either
+// side.
+std::vector<glm::dvec2> border_of_card(std::size_t corners) {
+    std::vector<glm::dvec2> border;
+    for (const double side : {1.0, -1.0})
+        for (std::size_t i = 0; i < corners; ++i) {
+            const double up = static_cast<double>(i) / static_cast<double>(corners - 1);
+            border.emplace_back(side, side > 0.0 ? up : 1.0 - up);
+        }
+    return border;
+}
+
 Shell simplified_shell(const Model& model, const Bending& bent, std::size_t triangles,
                        Preserved preserved) {
-    const LeafShape& shape = model.shape;
-    if (model.card) return card_fan(*model.card, bent, shape.thickness, triangles);
+    const double thickness = model.shape.thickness;
+    if (model.card)
+        return fan_shell(border_of_card(triangles / 4), {0.0, 0.5}, {model.card->half_breadth, 1.0},
+                         thickness, bent, [&](const glm::dvec2& place, bool upper) {
+                             return card_texture(*model.card, place, upper);
+                         });
     const Outline outline = outline_of(model, triangles / 4 + 1, preserved);
-    const glm::dvec2 centre = outline.centre;
     const std::vector<glm::dvec2> border = mirrored(outline.half);
     const double grown =
         preserved == Preserved::area ? std::sqrt(model.area / area_of(border)) : 1.0;
-    Shell shell;
-    const auto count = static_cast<std::uint32_t>(border.size());
-    for (const bool upper : {true, false}) {
-        for (const glm::dvec2& place : border)
-            shell.add(bent.at(grown * place, 0.0), model.chart.texture_point(place, upper));
-        const double lift = upper ? 0.5 * shape.thickness : -0.5 * shape.thickness;
-        shell.add(bent.at(grown * centre, lift), model.chart.texture_point(centre, upper));
-    }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t next = (i + 1) % count, below = count + 1;
-        shell.triangles.push_back({i, next, count});
-        shell.triangles.push_back({below + next, below + i, below + count});
-    }
-    return shell;
+    return fan_shell(border, outline.centre, glm::dvec2(grown), thickness, bent,
+                     [&](const glm::dvec2& place, bool upper) {
+                         return model.chart.texture_point(place, upper);
+                     });
 }
 
 /// Returns a leaf without a centre, folded along the line from its root to its tip; of no triangles if
@@ -376,6 +378,8 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
 
 Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share) {
     throw_if_invalid(shape);
+    if (triangles != 2 && triangles != 4)
+        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 2 or 4");
     LeafShape flat = shape;
     flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
     Model model = model_of(flat);
@@ -383,7 +387,7 @@ Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share) 
         model.card = &spray_panel;
         model.area = 2.0 * spray_panel.half_breadth;
     }
-    return flat_shell(model, triangles == 2 ? 2 : 4, share).mesh(shape.length);
+    return flat_shell(model, triangles, share).mesh(shape.length);
 }
 
 Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {

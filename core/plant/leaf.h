@@ -195,6 +195,7 @@ inline constexpr std::size_t most_foliage_triangles = 16;
 /// a spray, of two triangles as far as these show it.
 ///
 /// triangles  2 or 4
+/// throws     as foliage_leaf()
 [[nodiscard]] Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share = 1.0);
 
 /// Returns the area of the lamina in its plane, of all leaflets of a compound one; square metres.

@@ -181,14 +181,17 @@ double mark_at(double marks, double blotch, double cell) {
 // The coordinates of a place beyond the border.
 constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
 
-// Half the breadth of a needle, in its lengths, beside which there is space for a shoot.
-constexpr double slim = 0.045;
-
 // Returns half the breadth of a lamina, in its lengths.
 double half_breadth(const Lamina& lamina) {
     double half = 0.0;
     for (const glm::dvec2& place : border_of(lamina)) half = std::max(half, std::abs(place.x));
     return half;
+}
+
+// Returns whether a lamina is that of a needle, beside which there is space for shoots.
+bool is_slim(const Lamina& lamina) {
+    constexpr double slim = 0.045;
+    return half_breadth(lamina) < slim;
 }
 
 struct Texel {
@@ -241,7 +244,7 @@ class LeafPainter {
         blade.homothety = 1.0;
         blade.affinity = 0.9;
         young_ = colour_map_.at(blade, autumn_);
-        has_panels_ = half_breadth(sampler_.lamina()) < slim;
+        has_panels_ = is_slim(sampler_.lamina());
         if (has_panels_) images_.alpha.assign(count_ * count_, opaque);
         find_lamina_tiles();
         const LeafColourMap::Faces beyond = colour_map_.at(beyond_lamina, autumn_);
@@ -712,7 +715,7 @@ class LeafPainter {
 }  // namespace
 
 bool has_shoot(const Venation& venation) {
-    return half_breadth(lamina_of(venation, leaf_steps(venation, 0))) < slim;
+    return is_slim(lamina_of(venation, leaf_steps(venation, 0)));
 }
 
 bool shows_shoots(const LeafShape& shape) {

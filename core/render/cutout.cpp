@@ -1,19 +1,8 @@
 #include "core/render/cutout.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sporeprint::render {
-
-namespace {
-
-/// Returns twice the area of a triangle.
-float twice_area(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
-    const glm::vec2 ab = b - a, ac = c - a;
-    return std::abs(ab.x * ac.y - ab.y * ac.x);
-}
-
-}  // namespace
 
 Cutout::Cutout(const Draw& draw, const DrawMaterial& material, std::size_t first_corner,
                const std::array<glm::vec3, 3>& corners, const SampleRays& rays) {
@@ -36,9 +25,7 @@ Cutout::Cutout(const Draw& draw, const DrawMaterial& material, std::size_t first
     const auto seen = [&](std::size_t i) {
         return glm::vec2(corners[i]) / (rays.step * std::max(corners[i].z, near));
     };
-    const float image = twice_area(corners_[0], corners_[1], corners_[2]),
-                screen = twice_area(seen(0), seen(1), seen(2));
-    texels_ = static_cast<float>(alpha_->side()) * std::sqrt(image / std::max(screen, 0.0025F));
+    texels_ = texels_between_samples(corners_, {seen(0), seen(1), seen(2)}, alpha_->side());
 }
 
 }  // namespace sporeprint::render

@@ -43,8 +43,8 @@ class Cutout {
     float cutoff_ = 0.0F;
     float texels_ = 1.0F;                 ///< between two samples
     std::array<glm::vec2, 3> corners_{};  ///< in the image
-    glm::vec3 origin_{0.0F}, along_{0.0F},
-        down_{0.0F};  ///< weights of the corners, times their sum
+    /// Weights of the corners, times their sum, at the first sample, and their steps.
+    glm::vec3 origin_{0.0F}, along_{0.0F}, down_{0.0F};
 };
 
 }  // namespace sporeprint::render

@@ -255,21 +255,18 @@ class Facet {
     std::array<glm::vec3, 3> corners_{};  ///< in the axes of the camera
     glm::vec3 normal_{0.0F};              ///< of any length, in the axes of the camera
 
-    /// Returns the texels between two pixels: the root of the ratio of areas.
+    /// Returns the texels between two pixels.
     [[nodiscard]] float texels_of_pixel(const glm::vec2& scale) const {
-        const auto area = [](const auto& at) {
-            const glm::vec2 a = at(0), b = at(1) - a, c = at(2) - a;
-            return std::abs(b.x * c.y - b.y * c.x);
-        };
         // A corner may be behind the camera of a close-up.
         const float near = 0.1F * std::max({corners_[0].z, corners_[1].z, corners_[2].z});
-        const float screen = area([&](std::size_t i) {
+        const auto seen = [&](std::size_t i) {
             return glm::vec2(corners_[i]) * scale * (1.0F / std::max(corners_[i].z, near));
-        });
-        const float image =
-            area([&](std::size_t i) { return draw_->mesh->texture_coordinates[index_[i]]; });
-        const auto side = static_cast<float>(material_->base_color.side());
-        return side * std::sqrt(image / std::max(screen, 0.0025F));
+        };
+        const auto image = [&](std::size_t i) {
+            return draw_->mesh->texture_coordinates[index_[i]];
+        };
+        return texels_between_samples({image(0), image(1), image(2)}, {seen(0), seen(1), seen(2)},
+                                      material_->base_color.side());
     }
 
     template <class T>

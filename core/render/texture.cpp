@@ -84,4 +84,14 @@ glm::vec3 Texture::at(const glm::vec2& coordinate, float texels) const {
     return above * (1.0F - part_y) + below * part_y;
 }
 
+float texels_between_samples(const std::array<glm::vec2, 3>& image,
+                             const std::array<glm::vec2, 3>& seen, int side) {
+    const auto twice_area = [](const std::array<glm::vec2, 3>& at) {
+        const glm::vec2 b = at[1] - at[0], c = at[2] - at[0];
+        return std::abs(b.x * c.y - b.y * c.x);
+    };
+    return static_cast<float>(side) *
+           std::sqrt(twice_area(image) / std::max(twice_area(seen), 0.0025F));
+}
+
 }  // namespace sporeprint::render

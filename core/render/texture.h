@@ -48,4 +48,12 @@ class Texture {
     bool repeats_u_ = false;
 };
 
+/// Returns the distance of two samples of a triangle in texels of an image: the root of the ratio of areas.
+///
+/// image  its corners, texture coordinates
+/// seen   its corners in samples
+/// side   of the image, texels
+[[nodiscard]] float texels_between_samples(const std::array<glm::vec2, 3>& image,
+                                           const std::array<glm::vec2, 3>& seen, int side);
+
 }  // namespace sporeprint::render

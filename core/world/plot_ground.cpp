@@ -45,6 +45,19 @@ constexpr glm::vec3 tint_of_wall(0.42F, 0.36F, 0.31F), tint_of_bottom(0.25F, 0.2
 /// Depths of the rows of vertices of a wall, metres; the last one is the bottom.
 constexpr double first_depth = 0.1;
 
+/// Normals of the sides of a slab: north, west, south, east, counter-clockwise from above.
+constexpr std::array<glm::vec3, 4> outwards{
+    glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(-1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, 1.0F),
+    glm::vec3(1.0F, 0.0F, 0.0F)};
+
+/// Returns the vertex of the top of a slab that is the i-th of a side, as the sides go round.
+std::size_t on_border(std::size_t side, std::size_t i, std::size_t nodes) {
+    const std::size_t end = nodes - 1;
+    const std::array<std::size_t, 4> of_side = {end - i, i * nodes, end * nodes + i,
+                                                (end - i) * nodes + end};
+    return of_side[side];
+}
+
 /// A depth of soil, metres, and its colour, linear: litter, humus, topsoil, subsoil.
 struct Horizon {
     float depth;
@@ -216,23 +229,6 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
         below.tints.push_back(tint);
         return static_cast<std::uint32_t>(below.positions.size() - 1);
     };
-    // Sides in the order north, west, south, east: counter-clockwise from above.
-    const auto border = [&](std::size_t side, std::size_t i) {
-        const std::size_t end = nodes - 1;
-        switch (side) {
-            case 0:
-                return index(end - i, 0);
-            case 1:
-                return index(0, i);
-            case 2:
-                return index(i, end);
-            default:
-                return index(end, end - i);
-        }
-    };
-    constexpr std::array<glm::vec3, 4> outwards{
-        glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(-1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, 1.0F),
-        glm::vec3(1.0F, 0.0F, 0.0F)};
     const std::uint32_t middle =
         add({0.0F, bottom, 0.0F}, {0.0F, -1.0F, 0.0F}, {0.5F, 0.5F}, tint_of_bottom);
     std::vector<std::uint32_t> rim;
@@ -242,7 +238,7 @@ Mesh slab_mesh(const SlabParams& params, const GridHeights& heights_at) {
         const auto first = static_cast<std::uint32_t>(below.positions.size());
         const glm::vec2 inwards(-outwards[side].x, -outwards[side].z);
         for (std::size_t i = 0; i < nodes; ++i) {
-            const std::uint32_t top = border(side, i);
+            const std::size_t top = on_border(side, i, nodes);
             const glm::vec3 at = mesh.positions[top];
             const glm::vec2 texture = mesh.texture_coordinates[top];
             for (const float depth : {0.0F, static_cast<float>(first_depth), at.y - bottom}) {
@@ -279,16 +275,7 @@ Mesh soil_round(const Mesh& slab, const SlabParams& params) {
     const auto nodes = static_cast<std::uint32_t>(params.nodes), end = nodes - 1;
     float bottom = slab.positions.front().y;
     for (const glm::vec3& at : slab.positions) bottom = std::min(bottom, at.y);
-    // Sides as those of the slab go round: counter-clockwise from above.
-    const auto border = [&](std::size_t side, std::uint32_t i) {
-        const std::array<std::uint32_t, 4> of_side = {end - i, i * nodes, end * nodes + i,
-                                                      (end - i) * nodes + end};
-        return slab.positions[of_side[side]];
-    };
-    constexpr std::array<glm::vec3, 4> outwards{
-        glm::vec3(0.0F, 0.0F, -1.0F), glm::vec3(-1.0F, 0.0F, 0.0F), glm::vec3(0.0F, 0.0F, 1.0F),
-        glm::vec3(1.0F, 0.0F, 0.0F)};
-    const glm::vec3 corner = border(2, end);
+    const glm::vec3 corner = slab.positions[on_border(2, end, nodes)];
     const glm::vec3 wider(1.0F + soil_thickness / corner.x, 1.0F, 1.0F + soil_thickness / corner.z);
     const auto rows = static_cast<std::uint32_t>(horizons.size());
     Mesh soil;
@@ -301,7 +288,7 @@ Mesh soil_round(const Mesh& slab, const SlabParams& params) {
         };
         // Of each place the horizons before the wall, and the upper and the lower end behind them.
         for (std::uint32_t i = 0; i < nodes; ++i) {
-            const glm::vec3 top = border(side, i);
+            const glm::vec3 top = slab.positions[on_border(side, i, nodes)];
             for (std::uint32_t row = 0; row < rows; ++row) {
                 const float depth = std::min(horizons[row].depth, top.y - bottom);
                 add(wider * glm::vec3(top.x, row + 1 == rows ? bottom : top.y - depth, top.z),

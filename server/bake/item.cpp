@@ -8,6 +8,7 @@
 #include "api/http/encoding.h"
 #include "api/http/response_builder.h"
 #include "api/http/response_text.h"
+#include "api/products/product.h"
 #include "server/bake/aside_file.h"
 
 namespace sporeprint::server {
@@ -54,8 +55,9 @@ std::string listed_of(const BakedItem& item) {
     const std::size_t query = item.url.find('?'), at = item.url.find("v=", query);
     if (!item.drawn.is_null() || query == item.url.npos || at == item.url.npos) return item.url;
     if (item.target.find("v=") != item.url.npos) return item.target;
-    const std::string version = item.url.substr(at, item.url.find('&', at) - at);
-    return item.target + (item.target.find('?') == item.target.npos ? '?' : '&') + version;
+    const std::size_t version = at + 2;
+    return api::with_version(item.target,
+                             item.url.substr(version, item.url.find('&', version) - version));
 }
 
 }  // namespace

@@ -4,8 +4,7 @@
 
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <vector>
+#include <functional>
 
 #include "core/surface/codecs.h"
 
@@ -14,81 +13,76 @@ namespace {
 
 constexpr int side = 64;
 
-/// A material of which the right half, u > 1/2, is clear.
-DrawMaterial half_clear() {
-    Bytes rgba(std::size_t{4} * side * side, 200);
-    for (std::size_t i = 0; i < std::size_t{side} * side; ++i)
-        rgba[4 * i + 3] = i % side < side / 2 ? 255 : 0;
-    DrawMaterial material;
-    const Bytes file = png(rgba, side, side);
-    material.alpha = Texture(file, Encoding::alpha, false);
-    material.alpha_cutoff = 0.5F;
-    return material;
-}
+/// A triangle with corners at (0, 0), (1, 0) and (0, 1) of an image, and its material.
+class CutoutTest : public ::testing::Test {
+  protected:
+    CutoutTest() {
+        mesh_.positions = {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};
+        mesh_.texture_coordinates = {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
+        mesh_.indices = {0, 1, 2};
+        draw_.mesh = &mesh_;
+    }
 
-/// A triangle that shows u and v as the place in it: corners at (0, 0), (1, 0), (0, 1).
-Mesh right_triangle() {
-    Mesh mesh;
-    mesh.positions = {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}};
-    mesh.texture_coordinates = {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
-    mesh.indices = {0, 1, 2};
-    return mesh;
-}
+    /// Gives it alpha: 255 in the columns that are opaque, 0 in others.
+    void set_alpha(const std::function<bool(int column)>& is_opaque) {
+        Bytes rgba(std::size_t{4} * side * side, 200);
+        for (std::size_t i = 0; i < std::size_t{side} * side; ++i)
+            rgba[4 * i + 3] = is_opaque(static_cast<int>(i % side)) ? 255 : 0;
+        material_.alpha = Texture(png(rgba, side, side), Encoding::alpha, false);
+        material_.alpha_cutoff = 0.5F;
+    }
 
-TEST(Cutout, IsNoneWithoutAlpha) {
-    const Mesh mesh = right_triangle();
-    Draw draw;
-    draw.mesh = &mesh;
-    const Cutout opaque(draw, DrawMaterial(), 0,
-                        {glm::vec3(0, 0, 1), glm::vec3(9, 0, 1), glm::vec3(0, 9, 1)}, {});
-    EXPECT_TRUE(opaque.shows(3, 3));
+    [[nodiscard]] Cutout cutout(const std::array<glm::vec3, 3>& corners,
+                                const SampleRays& rays) const {
+        return Cutout(draw_, material_, 0, corners, rays);
+    }
+
+    /// The same, seen in parallel, with so many samples for the image.
+    [[nodiscard]] Cutout in_parallel(float samples) const {
+        return cutout({glm::vec3(0, 0, 1), glm::vec3(samples, 0, 1), glm::vec3(0, samples, 1)},
+                      {glm::vec2(0.5F), glm::vec2(1.0F)});
+    }
+
+    DrawMaterial material_;
+
+  private:
+    Mesh mesh_;
+    Draw draw_;
+};
+
+bool is_left(int column) { return column < side / 2; }
+
+TEST_F(CutoutTest, IsNoneWithoutAlpha) {
+    EXPECT_TRUE(in_parallel(9.0F).shows(3, 3));
     EXPECT_TRUE(Cutout().shows(3, 3));
 }
 
-TEST(Cutout, LeavesOutWhatIsClearSeenInParallel) {
-    const Mesh mesh = right_triangle();
-    const DrawMaterial material = half_clear();
-    Draw draw;
-    draw.mesh = &mesh;
-    // A hundred samples for the unit: sample x is at u = (x + 1/2) / 100.
-    const Cutout cutout(draw, material, 0,
-                        {glm::vec3(0, 0, 1), glm::vec3(100, 0, 1), glm::vec3(0, 100, 1)},
-                        {glm::vec2(0.5F), glm::vec2(1.0F)});
+TEST_F(CutoutTest, LeavesOutWhatIsClearSeenInParallel) {
+    set_alpha(is_left);
+    // Sample x is at u = (x + 1/2) / 100.
+    const Cutout cutout = in_parallel(100.0F);
     for (int x = 0; x < 100; ++x) {
         if (std::abs(x - 50) <= 2) continue;
         for (const int y : {0, 20}) EXPECT_EQ(cutout.shows(x, y), x < 50) << x << ' ' << y;
     }
 }
 
-TEST(Cutout, LeavesOutWhatIsClearInPerspective) {
+TEST_F(CutoutTest, LeavesOutWhatIsClearInPerspective) {
+    set_alpha(is_left);
     // The triangle leans away from the camera: u = 1/2 is at x = 1/2 and a depth of 3/2, so at a
     // third of the image and not at a half of the 1/2 at which u = 1 is seen.
-    const Mesh mesh = right_triangle();
-    const DrawMaterial material = half_clear();
-    Draw draw;
-    draw.mesh = &mesh;
-    const Cutout cutout(draw, material, 0,
-                        {glm::vec3(0, 0, 1), glm::vec3(1, 0, 2), glm::vec3(0, 1, 1)},
-                        {glm::vec2(0.0F), glm::vec2(0.001F)});
-    EXPECT_TRUE(cutout.shows(320, 1));
-    EXPECT_FALSE(cutout.shows(346, 1));
+    const Cutout seen = cutout({glm::vec3(0, 0, 1), glm::vec3(1, 0, 2), glm::vec3(0, 1, 1)},
+                               {glm::vec2(0.0F), glm::vec2(0.001F)});
+    EXPECT_TRUE(seen.shows(320, 1));
+    EXPECT_FALSE(seen.shows(346, 1));
 }
 
-TEST(Cutout, TakesSmallerCopiesFromAfar) {
+TEST_F(CutoutTest, TakesSmallerCopiesFromAfar) {
     // Stripes of one texel, half of them clear: from afar each place has an alpha of a half.
-    Bytes rgba(std::size_t{4} * side * side, 200);
-    for (std::size_t i = 0; i < std::size_t{side} * side; ++i) rgba[4 * i + 3] = i % 2 ? 255 : 0;
-    const Bytes file = png(rgba, side, side);
-    DrawMaterial material;
-    material.alpha = Texture(file, Encoding::alpha, false);
-    const Mesh mesh = right_triangle();
-    Draw draw;
-    draw.mesh = &mesh;
+    set_alpha([](int column) { return column % 2 == 1; });
     for (const float cutoff : {0.45F, 0.55F}) {
-        material.alpha_cutoff = cutoff;
-        const Cutout cutout(draw, material, 0,
-                            {glm::vec3(0, 0, 1), glm::vec3(32, 0, 1), glm::vec3(0, 32, 1)},
-                            {glm::vec2(0.5F), glm::vec2(1.0F)});
+        material_.alpha_cutoff = cutoff;
+        const Cutout cutout = in_parallel(32.0F);
         for (int x = 2; x < 20; ++x) EXPECT_EQ(cutout.shows(x, 4), cutoff < 0.5F) << x;
     }
 }
