@@ -9,6 +9,7 @@ import {
     launchBrowser,
     logEvents,
     patience,
+    reload,
     root,
     screenshotFolder,
     serverUrl,
@@ -432,7 +433,7 @@ test("points of the outline are moved on the photograph, and a reload keeps the 
     assert.equal(await page.locator(".handle[role=button]").count(), points);
     await page.waitForTimeout(600);
     const edited = await found("Cap");
-    await page.reload();
+    await reload(page, log);
     await page.locator("#sketch .outline").waitFor({ state: "attached" });
     await at(page, "ready");
     assert.equal(await found("Cap"), edited);
@@ -453,7 +454,7 @@ test("points of the outline are moved on the photograph, and a reload keeps the 
     assert.equal(await page.locator("#forgotten").isVisible(), false);
     await page.locator("#forget").click();
     await at(page, "empty");
-    await page.reload();
+    await reload(page, log);
     await at(page, "empty");
     assert.equal(await page.locator("#bring-back").isVisible(), false, "nothing is left of it");
     expectNoProblems(log);
@@ -576,7 +577,7 @@ test("all stages stand side by side, each has its own outline, and all have the 
     expectNear(rise, rise.map(() => rise[0]), 1e-9);
     assert.ok(rise[0] > 0);
     await page.waitForTimeout(600);
-    await page.reload();
+    await reload(page, log);
     await page.locator("#sketch .edited").waitFor();
     await at(page, "ready");
     assert.deepEqual(await speciesOf(page), raised, "a reload has the draft again");
@@ -605,7 +606,7 @@ test("starting from a species is one step, and the model of what was open before
     await page.locator("#found-numbers", { hasText: "from the file of a species" }).waitFor();
     await at(page, "ready");
     await page.waitForTimeout(600);
-    await page.reload();
+    await reload(page, log);
     await at(page, "ready");
     await page.locator("#undo").click();
     await page.locator('#tools [data-tool="axis"]').waitFor();
@@ -1077,7 +1078,7 @@ test("a photograph from above gives the skin of the cap, and a reload keeps it",
     });
     assert.notEqual(again.views.above.photo, views.above.photo);
     await page.waitForTimeout(600);
-    const reloaded = await traced(page, () => page.reload());
+    const reloaded = await traced(page, () => reload(page, log));
     assert.deepEqual(reloaded.views.above.gesture, views.above.gesture);
     assert.deepEqual(reloaded.views.above.centre, views.above.centre);
     await picture.waitFor({ state: "attached" });

@@ -8,6 +8,7 @@ import {
     launchBrowser,
     logEvents,
     ready,
+    reload,
     screenshotFolder,
     serverUrl,
 } from "./support.mjs";
@@ -354,7 +355,7 @@ test("an idle page sends no request and draws no frame", async (t) => {
 test("a second visit takes the gallery's pictures from the cache of the browser", async (t) => {
     const { page, log } = await open(t);
     await galleryComplete(page);
-    await page.reload();
+    await reload(page, log);
     await ready(page);
     await galleryComplete(page);
     assert.equal(await page.locator("#gallery img").count(), species.length);
@@ -667,7 +668,7 @@ test("levels of detail are shown as large as they are drawn last", async (t) => 
         assert.equal(parameters(page).get("lod"), "1", "the file is the same");
         await page.locator("#level-screen").selectOption("2160");
         assert.ok(Math.abs((await shown(page)).pixels / (2 * pixels) - 1) < 0.02);
-        await page.reload();
+        await reload(page, log);
         await ready(page);
         assert.equal((await shown(page)).triangles, triangles, "the address has the level");
         await page.locator('[data-level="2"]').click();

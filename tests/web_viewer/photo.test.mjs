@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, ready, serverUrl } from "./support.mjs";
+import { launchBrowser, logEvents, ready, reload, serverUrl } from "./support.mjs";
 
 const base = serverUrl();
 const plain = "lod=2&texture_size=128";
@@ -119,7 +119,7 @@ test("each light changes brightness and colour as named, and survives a reload",
     assert.ok(warmth(seen.dusk) < 1, numbers);
     assert.ok(Math.abs(warmth(seen.studio) - 1) < 0.06, numbers);
 
-    await page.reload();
+    await reload(page, log);
     await ready(page);
     assert.equal(await page.locator("#light").inputValue(), "dusk");
     const again = await measured(page);
@@ -157,7 +157,7 @@ test("close-ups show margin, underside and base in their sizes, by button and ke
     const key = await view(page, "margin").getAttribute("aria-keyshortcuts");
     await page.keyboard.press(key);
     assert.equal(parameters(page).get("view"), "margin");
-    await page.reload();
+    await reload(page, log);
     await ready(page);
     assert.deepEqual((await frame(page)).target, margin, "an address opens with its close-up");
     assert.ok(Math.abs(shorter(await frame(page)) / 0.05 - 1) < 0.1);

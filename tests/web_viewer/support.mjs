@@ -87,6 +87,16 @@ export function logEvents(page) {
     return log;
 }
 
+/**
+ * Loads the page again. The browser ends what the document that is left was still loading, and that
+ * document logs this: its messages from then on are dropped.
+ */
+export async function reload(page, log) {
+    const logged = log.console.length;
+    page.once("framenavigated", () => log.console.splice(logged));
+    await page.reload();
+}
+
 /** Waits until the shown model equals the controls and a frame was drawn. */
 export async function ready(page) {
     await page.waitForFunction(() => window.sporeprint, undefined, { timeout: patience });

@@ -8,6 +8,7 @@ import {
     launchBrowser,
     logEvents,
     ready,
+    reload,
     screenshotFolder,
     serverUrl,
 } from "./support.mjs";
@@ -106,7 +107,7 @@ test("a change of the table posts a custom matrix, which is written to the addre
     assert.ok(log.requests.some((url) => url.endsWith("/v1/trees.glb")));
     assert.equal(await page.locator("#copy-url").isDisabled(), true, "no URL contains it");
     await galleryComplete(page); // or the browser reports cancelled requests
-    await page.reload();
+    await reload(page, log);
     await ready(page);
     assert.equal(await page.locator('#matrix input[data-cell="0-1"]').inputValue(), "0.6");
     await page.getByRole("button", { name: "Back to the preset" }).click();
