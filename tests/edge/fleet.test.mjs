@@ -482,9 +482,38 @@ test("Varnish makes room for a large file by dropping many small ones", async (t
     await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
     t.after(() => server.close());
     t.after(() => server.closeAllConnections());
-    const edge = await fleet.varnish(t, ["--pool", `${generation}=127.0.0.1:${server.address().port}`], "16M");
+    const edge = await fleet.varnish(t, ["--pool", `${generation}=127.0.0.1:${server.address().port}`], { memory: "16M" });
     await fleet.together(1000, 8, async (i) => assert.equal((await ask(edge.port, `/small${i}`)).status, 200));
     for (let i = 0; i < 3; ++i) assert.equal((await ask(edge.port, `/large${i}`)).body.length, 8e6);
+});
+
+test("what a replica that hangs was sent is sent to another, behind each edge", async (t) => {
+    let hangs = false;
+    const good = (_, response) => response.writeHead(200, { ETag: '"tag"', "Cache-Control": "public, max-age=3600" }).end("good");
+    const [hanging, other] = [
+        await fleet.fake(t, (request, response) => hangs || good(request, response)),
+        await fleet.fake(t, good),
+    ];
+    const pool = ["--pool", `${generation}=127.0.0.1:${hanging.port},127.0.0.1:${other.port}`];
+    const impatient = (text) => {
+        assert.match(text, /\b25s/, "as long as a replica may take, and its response");
+        return text.replaceAll(/\b25s/g, "2s");
+    };
+    const edges = [
+        await fleet.nginx(t, pool, impatient),
+        await fleet.varnish(t, pool, { edit: impatient }),
+        await fleet.haproxy(t, pool, impatient),
+    ];
+    hangs = true;
+    const asked = edges.flatMap(({ port }) => Array.from({ length: 8 }, (_, i) => ask(port, `/v1/${i}.glb`)));
+    for (const { status, ms } of await Promise.all(asked)) {
+        assert.equal(status, 200);
+        assert.ok(ms < 12_000, `${ms} ms`);
+    }
+    // By now all have found out that it hangs.
+    await fleet.sleep(3000);
+    const later = await Promise.all(edges.slice(1).map(({ port }) => ask(port, "/v1/later.glb")));
+    for (const { status, ms } of later) assert.ok(status === 200 && ms < 1500, `${status} in ${ms} ms`);
 });
 
 test("replicas of other threads and instructions send the same bytes", async (t) => {

@@ -112,18 +112,19 @@ export function configured(edge, options) {
     return made.stdout;
 }
 
-export function configuredIn(file, edge, options) {
-    writeFileSync(file, configured(edge, options));
+/** Writes the configuration that server/edge/configure prints, after `edit`, to a file. */
+export function configuredIn(file, edge, options, edit = (text) => text) {
+    writeFileSync(file, edit(configured(edge, options)));
     return file;
 }
 
 export const addressesOf = (replicas) => replicas.map((one) => `127.0.0.1:${one.port}`).join(",");
 
 /** Starts nginx with a configuration that reload() can replace. */
-export async function nginx(t, options) {
+export async function nginx(t, options, edit) {
     const own = folder(t), port = await freePort(), file = path.join(own, "nginx.conf");
     const all = (more) => ["--listen", `127.0.0.1:${port}`, "--run", own, "--cache", path.join(own, "cache"), ...more];
-    configuredIn(file, "nginx", all(options));
+    configuredIn(file, "nginx", all(options), edit);
     const user = process.getuid() === 0 ? "user root;" : "";
     const child = start("nginx", ["-c", file, "-e", "stderr", "-g", `daemon off; ${user}`]);
     child.port = port;
@@ -137,9 +138,9 @@ export async function nginx(t, options) {
     return child;
 }
 
-export async function varnish(t, options, memory = "64M") {
+export async function varnish(t, options, { memory = "64M", edit } = {}) {
     const own = folder(t), port = await freePort();
-    const file = configuredIn(path.join(own, "edge.vcl"), "varnish", options);
+    const file = configuredIn(path.join(own, "edge.vcl"), "varnish", options, edit);
     const child = start("varnishd", [
         ...["-F", "-f", file, "-a", `127.0.0.1:${port}`, "-n", path.join(own, "work"), "-s", `malloc,${memory}`],
         ...["-p", "http_gzip_support=off", "-p", "nuke_limit=100000", "-T", "none", "-j", "none"],
@@ -150,9 +151,9 @@ export async function varnish(t, options, memory = "64M") {
     return child;
 }
 
-export async function haproxy(t, options) {
+export async function haproxy(t, options, edit) {
     const own = folder(t), port = await freePort();
-    const file = configuredIn(path.join(own, "haproxy.cfg"), "haproxy", ["--listen", `127.0.0.1:${port}`, ...options]);
+    const file = configuredIn(path.join(own, "haproxy.cfg"), "haproxy", ["--listen", `127.0.0.1:${port}`, ...options], edit);
     const child = start("haproxy", ["-db", "-f", file]);
     child.port = port;
     t.after(() => stop(child));
