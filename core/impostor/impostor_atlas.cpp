@@ -83,7 +83,7 @@ Visibility visible(const DrawList& list, const FrameView& view) {
                     places[i] = glm::vec3(
                         glm::vec2(view.place_of(draw.placement.point(at))) * float{samples}, 1.0F);
                 }
-                return render::Cutout(draw, material, first, places,
+                return render::Cutout(*draw.mesh, material, first, places,
                                       {glm::vec2(0.5F), glm::vec2(1.0F)});
             };
         found.show(d, draw.mesh->indices, corners, 0, side, {}, cutouts);

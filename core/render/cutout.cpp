@@ -4,9 +4,8 @@
 
 namespace sporeprint::render {
 
-Cutout::Cutout(const Draw& draw, const DrawMaterial& material, std::size_t first_corner,
+Cutout::Cutout(const Mesh& mesh, const DrawMaterial& material, std::size_t first_corner,
                const std::array<glm::vec3, 3>& corners, const SampleRays& rays) {
-    const Mesh& mesh = *draw.mesh;
     if (material.alpha.empty() || mesh.texture_coordinates.empty()) return;
     alpha_ = &material.alpha;
     cutoff_ = material.alpha_cutoff;

@@ -22,9 +22,10 @@ class Cutout {
     /// All of it is drawn.
     Cutout() = default;
 
+    /// mesh          with texture coordinates, or all of the triangle is drawn
     /// first_corner  of the triangle, as an index into those of the mesh
     /// corners       of the triangle, along the axes of the rays; for parallel rays with a third component of 1
-    Cutout(const Draw& draw, const DrawMaterial& material, std::size_t first_corner,
+    Cutout(const Mesh& mesh, const DrawMaterial& material, std::size_t first_corner,
            const std::array<glm::vec3, 3>& corners, const SampleRays& rays);
 
     [[nodiscard]] bool shows(int x, int y) const {
@@ -34,8 +35,8 @@ class Cutout {
         const float sum = at.x + at.y + at.z;
         if (!(sum * sum > 0.0F)) return true;
         const glm::vec3 w = at / sum;
-        return alpha_->at(corners_[0] * w.x + corners_[1] * w.y + corners_[2] * w.z, texels_).x >=
-               cutoff_;
+        return alpha_->grey_at(corners_[0] * w.x + corners_[1] * w.y + corners_[2] * w.z,
+                               texels_) >= cutoff_;
     }
 
   private:

@@ -11,6 +11,7 @@
 
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
+#include "core/render/cutout.h"
 #include "core/render/triangle_raster.h"
 
 namespace sporeprint::render {
@@ -40,6 +41,38 @@ glm::dvec2 in_disc(int i, int count) {
     const double radius = std::sqrt((i + 0.5) / count);
     const auto [sine, cosine] = sine_cosine(golden_angle * i);
     return {radius * cosine, radius * sine};
+}
+
+SnappedCorner snapped(const glm::vec3& at) { return render::snapped(Corner{at.x, at.y, at.z}); }
+
+/// Draws a triangle that stops light: where a depth is greater than that in the map, and its material leaves no hole.
+/// Few triangles have such a place, so where the holes are is found at the first one.
+///
+/// a, b, c  its corners in the map: texels and depths
+/// depth    returns the depth of a texel, or null beside the map
+template <class Depth>
+void stop_light(const Mesh& mesh, const DrawMaterial& material, std::size_t first_corner,
+                const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, int side, int first,
+                const Depth& depth_at) {
+    std::optional<Cutout> cutout;
+    const auto shows = [&](int x, int y) {
+        if (material.alpha.empty()) return true;
+        if (!cutout) {
+            const auto seen = [](const glm::vec3& at) { return glm::vec3(at.x, at.y, 1.0F); };
+            cutout.emplace(mesh, material, first_corner, std::array{seen(a), seen(b), seen(c)},
+                           SampleRays{});
+        }
+        return cutout->shows(x, y);
+    };
+    // Meshes are closed, so what stops light on one side leaves the mesh on the other. Depths
+    // are those of the far side, which is dark by itself: the near side cannot shade itself.
+    rasterize(
+        snapped(a), snapped(c), snapped(b), side, side,
+        [&](int x, int y, float depth) {
+            float* const nearest = depth_at(x, y);
+            if (nearest != nullptr && depth > *nearest && shows(x, y)) *nearest = depth;
+        },
+        first);
 }
 
 }  // namespace
@@ -135,7 +168,7 @@ ShadowMap::Level ShadowMap::level_round(const Bounds& box, int side) const {
 
 void ShadowMap::draw_whole(const DrawList& list, Level& level, bool has_foliage) const {
     const int side = level.side;
-    std::vector<SnappedCorner> corners;
+    std::vector<glm::vec3> places;
     // From the scene to texels and depths; its columns are images of the axes.
     const glm::mat3 to_image =
         glm::transpose(glm::mat3(right_ * level.scale, up_ * -level.scale, direction_));
@@ -145,20 +178,15 @@ void ShadowMap::draw_whole(const DrawList& list, Level& level, bool has_foliage)
         const glm::mat3 linear = to_image * draw.placement.linear;
         const glm::vec3 moved = to_image * draw.placement.translation + origin;
         const Mesh& mesh = *draw.caster;
-        corners.resize(mesh.positions.size());
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::vec3 at = linear * mesh.positions[i] + moved;
-            corners[i] = snapped({at.x, at.y, at.z});
-        }
+        places.resize(mesh.positions.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+            places[i] = linear * mesh.positions[i] + moved;
         const std::vector<std::uint32_t>& indices = mesh.indices;
-        // Meshes are closed, so what stops light on one side leaves the mesh on the other. Depths
-        // are those of the far side, which is dark by itself: the near side cannot shade itself.
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-            rasterize(corners[indices[i]], corners[indices[i + 2]], corners[indices[i + 1]], side,
-                      side, [&](int x, int y, float depth) {
-                          float& nearest = level.depth[static_cast<std::size_t>(y * side + x)];
-                          nearest = std::max(nearest, depth);
-                      });
+            stop_light(mesh, list.materials[draw.material], i, places[indices[i]],
+                       places[indices[i + 1]], places[indices[i + 2]], side, 0, [&](int x, int y) {
+                           return &level.depth[static_cast<std::size_t>(y * side + x)];
+                       });
     }
 }
 
@@ -202,17 +230,12 @@ void ShadowMap::draw_focus(const DrawList& list, Level& level, bool has_foliage)
             if (misses(least, most) || least.x < 0.0F || least.y < 0.0F || most.x > wide ||
                 most.y > wide)
                 continue;
-            // The far side, as in draw_whole().
-            const auto corner = [](const glm::vec3& at) { return snapped({at.x, at.y, at.z}); };
-            rasterize(
-                corner(a), corner(c), corner(b), margin + side, margin + side,
-                [&](int x, int y, float depth) {
-                    if (x < margin) return;
-                    float& nearest =
-                        level.depth[static_cast<std::size_t>((y - margin) * side + x - margin)];
-                    nearest = std::max(nearest, depth);
-                },
-                margin);
+            stop_light(
+                *draw.mesh, list.materials[draw.material], i, a, b, c, margin + side, margin,
+                [&](int x, int y) -> float* {
+                    if (x < margin) return nullptr;
+                    return &level.depth[static_cast<std::size_t>((y - margin) * side + x - margin)];
+                });
         }
     }
 }

@@ -118,7 +118,7 @@ Cutouts cutouts_of(const DrawList& list, std::size_t of, const std::vector<glm::
     if (material.alpha.empty()) return {};
     return [&, rays](std::uint32_t first) {
         const std::vector<std::uint32_t>& indices = draw.mesh->indices;
-        return Cutout(draw, material, first,
+        return Cutout(*draw.mesh, material, first,
                       {seen[indices[first]], seen[indices[first + 1]], seen[indices[first + 2]]},
                       rays);
     };

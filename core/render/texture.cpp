@@ -51,7 +51,8 @@ Texture::Texture(std::span<const std::uint8_t> file, Encoding encoding, bool rep
     }
 }
 
-glm::vec3 Texture::at(const glm::vec2& coordinate, float texels) const {
+template <class T, class Texel>
+T Texture::interpolated(const glm::vec2& coordinate, float texels, const Texel& texel) const {
     std::size_t which = 0;
     while (texels > 1.4F && which + 1 < levels_.size()) {
         texels *= 0.5F;
@@ -76,12 +77,21 @@ glm::vec3 Texture::at(const glm::vec2& coordinate, float texels) const {
     };
     const std::size_t left = column(floor_x), right = column(floor_x + 1.0F);
     const std::size_t upper = row(floor_y), lower = row(floor_y + 1.0F);
-    const auto texel = [&](std::size_t i) {
-        return glm::vec3(light_[level.rgb[i]], light_[level.rgb[i + 1]], light_[level.rgb[i + 2]]);
-    };
-    const glm::vec3 above = texel(upper + left) * (1.0F - part_x) + texel(upper + right) * part_x;
-    const glm::vec3 below = texel(lower + left) * (1.0F - part_x) + texel(lower + right) * part_x;
+    const auto at = [&](std::size_t i) { return texel(&level.rgb[i]); };
+    const T above = at(upper + left) * (1.0F - part_x) + at(upper + right) * part_x;
+    const T below = at(lower + left) * (1.0F - part_x) + at(lower + right) * part_x;
     return above * (1.0F - part_y) + below * part_y;
+}
+
+glm::vec3 Texture::at(const glm::vec2& coordinate, float texels) const {
+    return interpolated<glm::vec3>(coordinate, texels, [&](const std::uint8_t* rgb) {
+        return glm::vec3(light_[rgb[0]], light_[rgb[1]], light_[rgb[2]]);
+    });
+}
+
+float Texture::grey_at(const glm::vec2& coordinate, float texels) const {
+    return interpolated<float>(coordinate, texels,
+                               [&](const std::uint8_t* rgb) { return light_[rgb[0]]; });
 }
 
 float texels_between_samples(const std::array<glm::vec2, 3>& image,

@@ -35,6 +35,9 @@ class Texture {
     ///         about one
     [[nodiscard]] glm::vec3 at(const glm::vec2& coordinate, float texels) const;
 
+    /// Returns the first component of the colour.
+    [[nodiscard]] float grey_at(const glm::vec2& coordinate, float texels) const;
+
     [[nodiscard]] bool empty() const { return levels_.empty(); }
     [[nodiscard]] int side() const { return levels_.empty() ? 0 : levels_.front().side; }
 
@@ -43,6 +46,10 @@ class Texture {
         int side = 0;
         Bytes rgb;
     };
+    template <class T, class Texel>
+    [[nodiscard]] T interpolated(const glm::vec2& coordinate, float texels,
+                                 const Texel& texel) const;
+
     std::vector<Level> levels_;
     std::array<float, 256> light_{};  ///< linear light of each byte
     bool repeats_u_ = false;

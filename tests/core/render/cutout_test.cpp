@@ -34,7 +34,7 @@ class CutoutTest : public ::testing::Test {
 
     [[nodiscard]] Cutout cutout(const std::array<glm::vec3, 3>& corners,
                                 const SampleRays& rays) const {
-        return Cutout(draw_, material_, 0, corners, rays);
+        return Cutout(*draw_.mesh, material_, 0, corners, rays);
     }
 
     /// The same, seen in parallel, with so many samples for the image.

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/surface/codecs.h"
 #include "tests/support/solids.h"
 
 namespace sporeprint::render::render_lighting_test {
@@ -82,6 +83,25 @@ TEST(Lighting, ABodyCastsAShadowOfItsOutline) {
     EXPECT_EQ(map.light_at({0.0F, 0.3F, 0.0F}, glm::vec3(0.0F)), 1.0F) << "above it";
     EXPECT_FALSE(map.reaches({0.0F, 0.0F, 0.0F}, glm::vec3(0.0F)));
     EXPECT_TRUE(map.reaches({5.0F, 0.0F, 0.0F}, glm::vec3(0.0F)));
+}
+
+TEST(Lighting, LightPassesWhereAnImageIsClear) {
+    const Mesh mesh = plate(0.2F, 0.001F, {0.0F, 0.1F, 0.0F});
+    const GlbScene scene = scene_of(mesh);
+    DrawList list = draw_list(scene, in_turn);
+    // The lower face, which is the far one of light from above, is the right half of the image: opaque in its left
+    // part alone.
+    constexpr int side = 64;
+    Bytes rgba(std::size_t{4} * side * side, 200);
+    for (std::size_t i = 0; i < std::size_t{side} * side; ++i)
+        rgba[4 * i + 3] = i % side < side * 3 / 4 ? 255 : 0;
+    list.materials[0].alpha = Texture(png(rgba, side, side), Encoding::alpha, false);
+    list.materials[0].alpha_cutoff = 0.5F;
+    const glm::vec3 up(0.0F, 1.0F, 0.0F);
+    const ShadowMap whole(list, up, 256), focused(list, up, 16, ShadowFocus{list.box, 256});
+    for (const ShadowMap* map : {&whole, &focused})
+        for (const float x : {-0.08F, -0.02F, 0.02F, 0.08F, 0.3F})
+            EXPECT_EQ(map->light_at({x, 0.0F, 0.0F}, glm::vec3(0.0F)), x < 0.0F ? 0.0F : 1.0F) << x;
 }
 
 /// Says of all vertices of all draws that they are used.
