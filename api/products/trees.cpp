@@ -78,7 +78,7 @@ Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras
     if (has_addresses(spec.params.textures)) {
         of_leaves = references_from(
             depth, foliage_image_urls(spec.params.look.leaf.id.string(),
-                                      paint_of(leaf_of(spec.params, atlas)), atlas));
+                                      paint_on_tree(leaf_of(spec.params, atlas)), atlas));
     }
     return grow_tree(spec, atlas, extras, of_leaves, execution);
 }
@@ -107,7 +107,7 @@ Cost Trees::cost_of_growing(const TreeSpec& spec) {
 Cost Trees::cost_of_painting(const TreeSpec& spec, const Atlas& atlas) {
     Cost cost = cost_of_paint(paint_of(spec.params));
     if (spec.params.look.leaves.per_tip > 0)
-        cost += Leaves::cost_of_paint(paint_of(leaf_of(spec.params, atlas)));
+        cost += Leaves::cost_of_paint(paint_on_tree(leaf_of(spec.params, atlas)));
     return cost;
 }
 
@@ -264,7 +264,7 @@ constexpr Route routes[] = {
      .method = "GET",
      .pattern = "/v1/trees/leaves/{preset}/{image}.png",
      .id = "get_tree_leaf_image_png",
-     .summary = "The base colour as PNG, with alpha where the image shows shoots of needles.",
+     .summary = "The base colour as PNG, with alpha where it shows shoots of needles or sprays.",
      .media_type = "image/png",
      .example = example_needle,
      .query_schema = leaf_paint_schema,

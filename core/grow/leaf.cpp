@@ -130,7 +130,7 @@ std::string image_key(const LeafPaint& paint, ImageFormat format) {
     return key_of_format(format) + "leaf " + canonical_text(paint);
 }
 
-bool has_alpha(const LeafPaint& paint) { return has_shoot(paint.venation); }
+bool has_alpha(const LeafPaint& paint) { return paint.sprays || has_shoot(paint.venation); }
 
 ImageFormat format_in_files(const LeafPaint& paint, ImageFormat format) {
     return format == ImageFormat::jpg && has_alpha(paint) ? ImageFormat::png : format;
@@ -153,8 +153,9 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
         params.shape.venation = paint.venation;
         LeafPalette palette = paint.palette;
         palette.summer = unfolding(palette.summer, paint.spring);
-        const RawImages images = leaf_images(shape_of(params), palette, paint.autumn, paint.seed,
-                                             paint.texture_size, execution.parallel);
+        const RawImages images = leaf_images(
+            shape_of(params), palette, paint.autumn, paint.seed, paint.texture_size,
+            paint.sprays ? LeafLayout::with_sprays : LeafLayout::alone, execution.parallel);
         throw_if_cancelled(execution);
         return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
     });

@@ -505,7 +505,7 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     }
     EmbeddedImages leaf_images;
     if (leafy) {
-        const LeafPaint paint = paint_of(leaf_of(params, atlas));
+        const LeafPaint paint = paint_on_tree(leaf_of(params, atlas));
         scene.materials.push_back(
             {.name = leaf_material_name(params.look.leaf.id.string(), paint, params.textures),
              .transmission = transmission_of_leaves(params.file),

@@ -89,6 +89,7 @@ enum Purpose : std::uint32_t {
     ground_crumbs = 149,    ///< grains of soil on a clod and beside it
     crossing = 150,         ///< what an offspring has of which parent
     mutation = 151,         ///< how its genes differ from those of its parents
+    leaf_spray = 152,       ///< leaves of a twig, and of a branch, on the image of a tree's leaves
     terrain = 200,          ///< place, seed and direction of each octave of a world's heights
     weather = 201,          ///< of a world: rain and warmth, day by day
     patches = 202,          ///< of a wood: seeds of patches and their storms
@@ -193,6 +194,7 @@ enum Purpose : std::uint32_t {
         case species_damage:
         case tree_tints:
         case leaf_damage:
+        case leaf_spray:
         case fallen_litter:
         case ground_crumbs:
         case crossing:

@@ -17,6 +17,7 @@
 #include "core/mesh/tangents.h"
 #include "core/plant/leaf_colour.h"
 #include "core/plant/leaf_shell.h"
+#include "core/plant/leaf_spray.h"
 
 namespace sporeprint {
 
@@ -161,7 +162,7 @@ glm::dvec2 plain_place_of(const LeafShape& shape, const Lamina& lamina) {
 /// whose veins would be seen to be too large.
 Mesh clump_mesh(const LeafShape& shape, std::size_t sides) {
     const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
-    const LeafChart chart = chart_of(lamina);
+    const LeafChart chart = chart_of(lamina, layout_on_trees(shape));
     const glm::dvec2 middle = plain_place_of(shape, lamina);
     Mesh mesh;
     for (const bool upper : {true, false}) {
@@ -268,6 +269,16 @@ void resize(std::vector<PlacedLeaf>& leaves, double factor, double middle) {
     }
 }
 
+/// Returns a mesh of what foliage covers: cards are as much smaller as their images are clear.
+///
+/// middle  as above
+Mesh covering(const Foliage& foliage, double middle) {
+    if (foliage.covered >= 1.0) return merged_leaves(foliage.leaves, foliage.leaf);
+    std::vector<PlacedLeaf> leaves = foliage.leaves;
+    resize(leaves, std::sqrt(foliage.covered), middle);
+    return merged_leaves(leaves, foliage.leaf);
+}
+
 }  // namespace
 
 FarCount far_count(int level, std::size_t leaves) {
@@ -292,22 +303,25 @@ FarTree far_tree(const Tree& tree, const LeafStyle& style, const LeafShape& shap
     if (last.leaves.empty()) return made;
     const std::size_t sides = sides_of_level[static_cast<std::size_t>(level)];
     const FarCount first = far_count(0, last.leaves.size());
-    made.foliage.leaf = leaf_of_group(shape, 2);
-    made.foliage.leaves = grouped(tree, last.leaves, last.leaf, made.foliage.leaf, first.leaves);
+    made.foliage.each =
+        last.each * static_cast<double>(last.leaves.size()) / static_cast<double>(first.leaves);
+    set_group_leaf(made.foliage, shape, last.group, 2);
+    made.foliage.leaves = grouped(tree, last.leaves, last.leaf, made.foliage.leaf, first.leaves,
+                                  last.covered / made.foliage.covered);
     if (sides > 0) {
         made.foliage.leaves =
             clumped(tree, made.foliage.leaves, made.foliage.leaf, count.leaves, least_thickness);
         made.foliage.leaf = clump_mesh(shape, sides);
+        made.foliage.covered = 1.0;
     }
     const Mesh bark = bark_of(tree, tree_lods - 1).mesh,
-               leaves = merged_leaves(last.leaves, last.leaf);
+               leaves = covering(last, surface_moments(last.leaf).middle.z);
     Bounds box = bounds(leaves);
     box = united(box, bounds(bark));
     const double wanted = covered_area(box, bark, leaves);
     const double middle = surface_moments(made.foliage.leaf).middle.z;
     for (int i = 0; i < corrections; ++i) {
-        const double found = covered_area(box, made.bark.mesh,
-                                          merged_leaves(made.foliage.leaves, made.foliage.leaf));
+        const double found = covered_area(box, made.bark.mesh, covering(made.foliage, middle));
         if (!(found > 0.0)) break;
         resize(made.foliage.leaves, std::clamp(std::sqrt(wanted / found), 0.7, 1.5), middle);
     }

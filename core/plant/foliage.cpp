@@ -17,6 +17,7 @@
 #include "core/mesh/measure.h"
 #include "core/plant/leaf_image.h"
 #include "core/plant/leaf_shell.h"
+#include "core/plant/leaf_spray.h"
 
 namespace sporeprint {
 
@@ -46,8 +47,8 @@ constexpr std::size_t leaves_of_block = 64;
 constexpr std::array<double, tree_lods> area_shares = {1.0, 1.04, 1.05, 1.09};
 constexpr double area_share_of_group = 1.05;
 
-// The same for sprays in place of shoots, whose images have wider gaps.
-constexpr double area_share_of_spray = 1.4;
+// The same for cards of sprays of shoots: their needles are before each other, as those of the shoots are.
+constexpr double area_share_of_shoots = 1.4;
 
 double square(double x) { return x * x; }
 
@@ -431,6 +432,26 @@ std::vector<PlacedLeaf> clumped(const Tree& tree, std::span<const PlacedLeaf> le
         });
 }
 
+void set_group_leaf(Foliage& foliage, const LeafShape& shape, LeafGroup of_leaf,
+                    std::size_t triangles, double share) {
+    LeafShape flat = shape;
+    flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
+    foliage.group = std::max(group_of(foliage.each), of_leaf);
+    GroupLeaf leaf = leaf_of_group(flat, triangles, foliage.group, share);
+    foliage.leaf = std::move(leaf.mesh);
+    foliage.covered = leaf.covered;
+}
+
+namespace {
+
+/// Returns the area of what stands for groups by that which these cover.
+double share_of_groups(const Foliage& foliage, const LeafShape& shape) {
+    const bool are_shoots = foliage.group != LeafGroup::leaf && shows_shoots(shape);
+    return are_shoots ? area_share_of_shoots : area_share_of_group / foliage.covered;
+}
+
+}  // namespace
+
 Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& shape,
                    std::uint32_t seed, int lod) {
     std::vector<PlacedLeaf> all = placed_leaves(tree, style, seed);
@@ -439,23 +460,23 @@ Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& sh
                       triangles = leaf_triangles(lod, all.size());
     // The same leaves at the same places, so that files with several levels share them.
     const double share = area_shares[index_of(lod)];
-    if (lod == 0) return {std::move(all), finest_foliage_leaf(shape, triangles)};
-    if (count == all.size()) return {std::move(all), foliage_leaf(shape, triangles, share)};
-    const Mesh finest = finest_foliage_leaf(shape, leaf_triangles(0, all.size()));
-    const Farthest farthest = farthest_first(all, finest);
-    LeafShape flat = shape;
-    flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
+    const LeafGroup of_leaf = shows_sprays(shape) ? style.leaf_group : LeafGroup::leaf;
+    if (lod == 0) return {std::move(all), finest_foliage_leaf(shape, triangles, of_leaf)};
+    if (count == all.size()) {
+        GroupLeaf leaf = leaf_of_group(shape, triangles, of_leaf, share);
+        return {std::move(all), std::move(leaf.mesh), leaf.covered, 1.0, of_leaf};
+    }
+    const std::size_t finest_triangles = leaf_triangles(0, all.size());
+    const Farthest farthest =
+        farthest_first(all, finest_foliage_leaf(shape, finest_triangles, of_leaf));
     Foliage foliage;
-    // A leaf in place of one or two looks like them.
-    const bool stands_for_many = all.size() > 2 * count;
-    foliage.leaf = stands_for_many ? leaf_of_group(flat, triangles, share)
-                                   : foliage_leaf(flat, triangles, share);
+    foliage.each = static_cast<double>(all.size()) / static_cast<double>(count);
+    set_group_leaf(foliage, shape, of_leaf, triangles, share);
     // The leaves that reach farthest stay alone, so that the crown keeps its extent.
     const std::span<const PlacedLeaf> alone(all.data(), farthest.count),
         others(all.data() + farthest.count, all.size() - farthest.count);
-    const bool are_sprays = stands_for_many && shows_shoots(shape);
-    foliage.leaves = grouped(tree, others, finest, foliage.leaf, count - farthest.count,
-                             are_sprays ? area_share_of_spray : area_share_of_group);
+    foliage.leaves = grouped(tree, others, finest_foliage_leaf(shape, finest_triangles),
+                             foliage.leaf, count - farthest.count, share_of_groups(foliage, shape));
     foliage.leaves.insert(foliage.leaves.end(), alone.begin(), alone.end());
     keep_within(farthest.box, foliage.leaf, foliage.leaves);
     return foliage;

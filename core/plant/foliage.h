@@ -17,6 +17,9 @@ namespace sporeprint {
 struct Foliage {
     std::vector<PlacedLeaf> leaves;
     Mesh leaf;
+    double covered = 1.0;               ///< share of the leaf's area that its image shows leaves on
+    double each = 1.0;                  ///< leaves of the tree for which each stands
+    LeafGroup group = LeafGroup::leaf;  ///< what each shows
 };
 
 /// Returns how many leaves a level of detail has, by the number of all leaves: all at levels 0 and 1
@@ -58,6 +61,13 @@ struct Foliage {
 [[nodiscard]] std::vector<PlacedLeaf> clumped(const Tree& tree, std::span<const PlacedLeaf> leaves,
                                               const Mesh& leaf, std::size_t count,
                                               double thickness);
+
+/// Sets the mesh of flat leaves, each of which stands for `each` leaves of the tree, and what it shows.
+///
+/// of_leaf  what a tree has at the place of one leaf
+/// share    as of foliage_leaf()
+void set_group_leaf(Foliage& foliage, const LeafShape& shape, LeafGroup of_leaf,
+                    std::size_t triangles, double share = 1.0);
 
 /// Returns the foliage of a tree at a level of detail. The crown has the same extent at every level:
 /// the leaves that reach farthest are always there, and no group reaches beyond them. Levels with

@@ -11,6 +11,7 @@
 #include "core/plant/lamina.h"
 #include "core/plant/leaf_image.h"
 #include "core/plant/leaf_shell.h"
+#include "core/plant/leaf_spray.h"
 
 namespace sporeprint {
 
@@ -141,17 +142,21 @@ struct Model {
 // Returns the place in the image of a place of a card: from -1 to 1 across, from 0 at its root to 1.
 glm::dvec2 card_texture(const LeafPanel& panel, const glm::dvec2& place, bool upper) {
     return {(upper ? 0.0 : 0.5) + panel.middle + panel.half * place.x,
-            panel_root - panel_length * place.y};
+            panel.root - panel.length * place.y};
 }
 
 // Longest side veins of a star, in edges of its middle vein: of leaflets in a plane, and of needles all round a shoot,
 // whose star would be a broad blade and not a twig.
 constexpr double widest_star = 3.0, widest_shoot = 0.9;
 
-Model model_of(const LeafShape& shape) {
+// Share of the triangle of a card that the needles of a spray of shoots cover.
+constexpr double covered_by_shoots = 0.55;
+
+Model model_of(const LeafShape& shape, LeafLayout layout) {
     const double area = lamina_area(shape) / (shape.length * shape.length);
     if (shape.leaflets.count == 0)
-        return {shape, chart_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0))), area};
+        return {shape, chart_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)), layout),
+                area};
     if (shows_shoots(shape))
         return {shape, {}, 2.0 * shoot_panel.half_breadth, false, &shoot_panel};
     Model model{star_of(shape), {}, area, true};
@@ -373,30 +378,55 @@ Shell flat_shell(const Model& model, std::size_t triangles, double share) {
 
 Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
                     Preserved preserved) {
-    return simplified_shell(model_of(shape), bent, triangles, preserved);
+    return simplified_shell(model_of(shape, LeafLayout::alone), bent, triangles, preserved);
 }
 
-Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share) {
-    throw_if_invalid(shape);
-    if (triangles != 2 && triangles != 4)
-        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 2 or 4");
-    LeafShape flat = shape;
-    flat.curl_deg = flat.fold_deg = flat.wave = 0.0;
-    Model model = model_of(flat);
-    if (model.card) {
-        model.card = &spray_panel;
-        model.area = 2.0 * spray_panel.half_breadth;
-    }
-    return flat_shell(model, triangles, share).mesh(shape.length);
+namespace {
+
+void require_triangles(std::size_t triangles) {
+    if (triangles == 2 ||
+        (triangles >= 4 && triangles <= most_foliage_triangles && triangles % 4 == 0))
+        return;
+    throw InvalidInput("/triangles", std::to_string(triangles) + " is not 2, 4, 8, 12 or 16");
 }
 
-Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share) {
+/// Returns the share of a card that a spray covers.
+double covered_by(const LeafShape& shape, std::size_t triangles, LeafGroup spray) {
+    // All leaves are within the triangle, which is half of the card.
+    return (triangles == 2 ? 1.0 : 0.5) * covered_share(shape, spray);
+}
+
+/// Returns the length of a card whose spray covers as much as a leaf, in lengths of the leaf.
+double length_of(const LeafShape& shape, std::size_t triangles, LeafGroup spray) {
+    const double area = 2.0 * panel_of(spray).half_breadth * covered_by(shape, triangles, spray);
+    return std::sqrt(lamina_area(shape) / area) / shape.length;
+}
+
+}  // namespace
+
+GroupLeaf leaf_of_group(const LeafShape& shape, std::size_t triangles, LeafGroup group,
+                        double share) {
+    const bool is_spray = shows_sprays(shape);
+    if (group == LeafGroup::leaf || !(is_spray || shows_shoots(shape)))
+        return {foliage_leaf(shape, triangles, share, layout_on_trees(shape))};
     throw_if_invalid(shape);
-    if (triangles == 2 || triangles == 4)
-        return flat_shell(model_of(shape), triangles, share).mesh(shape.length);
-    if (triangles < 4 || triangles > most_foliage_triangles || triangles % 4 != 0)
-        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 2, 4, 8, 12 or 16");
-    const Model model = model_of(shape);
+    require_triangles(triangles);
+    Model model{shape, {}, 0.0, false, is_spray ? &panel_of(group) : &spray_panel};
+    model.area = 2.0 * model.card->half_breadth;
+    const Shell shell =
+        triangles <= 4 ? flat_shell(model, triangles, share)
+                       : simplified_shell(model, Bending(model.shape), triangles, Preserved::area);
+    if (!is_spray) return {shell.mesh(shape.length), covered_by_shoots};
+    return {shell.mesh(shape.length * length_of(shape, triangles, group)),
+            covered_by(shape, triangles, group)};
+}
+
+Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles, double share, LeafLayout layout) {
+    throw_if_invalid(shape);
+    require_triangles(triangles);
+    if (triangles <= 4)
+        return flat_shell(model_of(shape, layout), triangles, share).mesh(shape.length);
+    const Model model = model_of(shape, layout);
     return simplified_shell(model, Bending(model.shape), triangles, Preserved::area)
         .mesh(shape.length);
 }
@@ -406,8 +436,8 @@ namespace {
 // How far the card of a shoot is folded.
 constexpr double card_fold_deg = 22.0;
 
-/// Returns a card of four triangles, or of eight that are folded along the shoot.
-Shell shoot_card(const LeafShape& shape, std::size_t triangles) {
+/// Returns a card of four triangles, or of eight that are folded along what it shows.
+Shell folded_card(const LeafShape& shape, const LeafPanel& panel, std::size_t triangles) {
     LeafShape card = shape;
     card.fold_deg = card_fold_deg;
     card.wave = 0.0;
@@ -419,8 +449,8 @@ Shell shoot_card(const LeafShape& shape, std::size_t triangles) {
     for (const bool upper : {true, false})
         for (const double up : {0.0, 1.0})
             for (const double across : columns)
-                shell.add(bent.at({shoot_panel.half_breadth * across, up}, 0.0),
-                          card_texture(shoot_panel, {across, up}, upper));
+                shell.add(bent.at({panel.half_breadth * across, up}, 0.0),
+                          card_texture(panel, {across, up}, upper));
     const std::uint32_t row = count / 2;
     for (std::uint32_t i = 0; i + 1 < row; ++i) {
         const std::array<std::array<std::uint32_t, 3>, 2> quad = {
@@ -449,23 +479,28 @@ std::size_t finest_leaf_vertices(std::size_t triangles) {
     return triangles + (triangles <= 8 ? 4 : 8);
 }
 
-Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles) {
+Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles, LeafGroup group) {
     throw_if_invalid(shape);
     const bool is_blade = triangles == 4 || triangles == 8;
+    if (group != LeafGroup::leaf && shows_sprays(shape))
+        return is_blade ? folded_card(shape, panel_of(group), triangles)
+                              .mesh(shape.length * length_of(shape, triangles, group))
+                        : leaf_of_group(shape, triangles, group).mesh;
     Shell folded;
     if (shape.leaflets.count == 0 && is_blade) {
-        const Model model = model_of(shape);
+        const Model model = model_of(shape, layout_on_trees(shape));
         folded =
             folded_shell(outline_of(model, triangles / 4 + 2, Preserved::area).half, model.area,
                          Bending(shape), triangles, [&](const glm::dvec2& place, bool upper) {
                              return model.chart.texture_point(place, upper);
                          });
     } else if (shows_shoots(shape) && (is_blade || triangles == 12 || triangles == 16)) {
-        folded = shoot_card(shape, std::min<std::size_t>(triangles, 8));
+        folded = folded_card(shape, shoot_panel, std::min<std::size_t>(triangles, 8));
         // A second card stands square to the first.
-        if (!is_blade) append_crossed(folded, shoot_card(shape, triangles - 8));
+        if (!is_blade) append_crossed(folded, folded_card(shape, shoot_panel, triangles - 8));
     }
-    return folded.triangles.empty() ? foliage_leaf(shape, triangles) : folded.mesh(shape.length);
+    return folded.triangles.empty() ? foliage_leaf(shape, triangles, 1.0, layout_on_trees(shape))
+                                    : folded.mesh(shape.length);
 }
 
 }  // namespace sporeprint

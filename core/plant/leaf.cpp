@@ -25,6 +25,7 @@ constexpr double petiole_radius = 0.011, petiole_reach = 0.12;  // in lengths of
 constexpr double thickest = 0.9;  // half the thickness of a lamina, at most, in its half breadth
 constexpr double bow_variation = 0.05;  // of individuals, as a standard deviation
 constexpr double faces_height = 0.9;    // of the image, above the petiole's strip
+constexpr double small_lamina = 0.47;   // beside sprays, by its size without them
 
 // By level of detail: lengths of edges about what is eaten, in radii of a spot, of which the first one
 // is taken that is not too many; vertices and triangles of a face for each spot at most. Coarser levels
@@ -155,13 +156,25 @@ glm::dvec2 LeafChart::place(const glm::dvec2& texture_point, bool& upper) const 
                         scale;
 }
 
-LeafChart chart_of(const Lamina& lamina) {
+LeafChart chart_of(const Lamina& lamina, LeafLayout layout) {
     glm::dvec2 low(0.0), high(0.0);
     for (const glm::dvec2& place : border_of(lamina)) {
         low = glm::min(low, place);
         high = glm::max(high, place);
     }
-    return {low, std::min(0.48 / (high.x - low.x), faces_height / (high.y - low.y))};
+    return {low, (layout == LeafLayout::with_sprays ? small_lamina : 1.0) *
+                     std::min(0.48 / (high.x - low.x), faces_height / (high.y - low.y))};
+}
+
+double half_breadth(const Lamina& lamina) {
+    double half = 0.0;
+    for (const glm::dvec2& place : border_of(lamina)) half = std::max(half, std::abs(place.x));
+    return half;
+}
+
+bool is_slim(const Lamina& lamina) {
+    constexpr double slim = 0.045;
+    return half_breadth(lamina) < slim;
 }
 
 int leaf_steps(const Venation& venation, int lod) { return level_of(venation, lod).steps; }

@@ -130,7 +130,12 @@ struct LeafChart {
 };
 /// The top of the petiole's strip; v goes down as in glTF.
 inline constexpr double petiole_strip = 0.94;
-[[nodiscard]] LeafChart chart_of(const Lamina& lamina);
+
+/// What the image of a leaf shows: it alone, or, on trees, a smaller copy with sprays of leaves beside it. A needle
+/// has shoots beside it in any case.
+enum class LeafLayout { alone, with_sprays };
+
+[[nodiscard]] LeafChart chart_of(const Lamina& lamina, LeafLayout layout = LeafLayout::alone);
 
 /// The number of levels of detail of a leaf as a product of its own.
 inline constexpr int leaf_lods = 4;
@@ -187,16 +192,42 @@ inline constexpr std::size_t most_foliage_triangles = 16;
 ///
 /// triangles  2, 4, 8, 12 or 16
 /// share      area of a leaf of two or four triangles by that of the lamina, greater than 0
+/// layout     of its image
 /// throws     InvalidInput with all that check() reports, or for another number of triangles
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
-                                std::size_t triangles = most_foliage_triangles, double share = 1.0);
+                                std::size_t triangles = most_foliage_triangles, double share = 1.0,
+                                LeafLayout layout = LeafLayout::alone);
 
-/// Returns the leaf that stands for a group of leaves: the flat foliage_leaf(); for shoots of needles the card of
-/// a spray, of two triangles as far as these show it.
+/// What is drawn at the place of a leaf: it, a twig with some smaller leaves, or a branch of such twigs.
+enum class LeafGroup { leaf, twig, branch };
+
+constexpr const char* name(LeafGroup group) {
+    switch (group) {
+        case LeafGroup::leaf:
+            return "leaf";
+        case LeafGroup::twig:
+            return "twig";
+        case LeafGroup::branch:
+            return "branch";
+    }
+    return nullptr;
+}
+
+/// What stands for one leaf or more.
+struct GroupLeaf {
+    Mesh mesh;
+    double covered = 1.0;  ///< about the share of its area that its image shows leaves on
+};
+
+/// Returns what a tree has at the place of a leaf: the foliage_leaf(), or a card with the picture of a group, of which as
+/// much is covered as a leaf covers. Of two triangles it is the part of the card between its root's two corners and the
+/// middle of its other end. Shoots of needles have a spray of shoots for either group, compound leaves none.
 ///
-/// triangles  2 or 4
+/// triangles  2, 4, 8, 12 or 16
+/// share      as of foliage_leaf()
 /// throws     as foliage_leaf()
-[[nodiscard]] Mesh leaf_of_group(const LeafShape& shape, std::size_t triangles, double share = 1.0);
+[[nodiscard]] GroupLeaf leaf_of_group(const LeafShape& shape, std::size_t triangles,
+                                      LeafGroup group, double share = 1.0);
 
 /// Returns the area of the lamina in its plane, of all leaflets of a compound one; square metres.
 [[nodiscard]] double lamina_area(const LeafShape& shape);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/math/noise.h"
 #include "core/plant/image_rows.h"
 #include "core/plant/leaf_shell.h"
+#include "core/plant/leaf_spray.h"
 
 namespace sporeprint {
 
@@ -181,19 +183,6 @@ double mark_at(double marks, double blotch, double cell) {
 // The coordinates of a place beyond the border.
 constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
 
-// Returns half the breadth of a lamina, in its lengths.
-double half_breadth(const Lamina& lamina) {
-    double half = 0.0;
-    for (const glm::dvec2& place : border_of(lamina)) half = std::max(half, std::abs(place.x));
-    return half;
-}
-
-// Returns whether a lamina is that of a needle, beside which there is space for shoots.
-bool is_slim(const Lamina& lamina) {
-    constexpr double slim = 0.045;
-    return half_breadth(lamina) < slim;
-}
-
 struct Texel {
     glm::dvec3 light{0.0};
     double occlusion = 0.0, roughness = 0.0;
@@ -209,9 +198,11 @@ struct Texel {
 class LeafPainter {
   public:
     LeafPainter(const LeafShape& shape, const LeafPalette& palette, double autumn,
-                std::uint32_t seed, std::size_t side)
+                std::uint32_t seed, std::size_t side, LeafLayout layout)
         : sampler_(lamina_of(shape.venation, leaf_steps(shape.venation, 0))),
-          chart_(chart_of(sampler_.lamina())),
+          has_shoots_(is_slim(sampler_.lamina())),
+          has_sprays_(layout == LeafLayout::with_sprays && !has_shoots_),
+          chart_(chart_of(sampler_.lamina(), has_sprays_ ? layout : LeafLayout::alone)),
           colour_map_(palette),
           autumn_(autumn),
           relief_(shape.relief),
@@ -244,8 +235,8 @@ class LeafPainter {
         blade.homothety = 1.0;
         blade.affinity = 0.9;
         young_ = colour_map_.at(blade, autumn_);
-        has_panels_ = is_slim(sampler_.lamina());
-        if (has_panels_) images_.alpha.assign(count_ * count_, opaque);
+        if (has_shoots_ || has_sprays_) images_.alpha.assign(count_ * count_, opaque);
+        if (has_sprays_) on_lamina_.assign(count_ * count_ / 2, 0.0F);
         find_lamina_tiles();
         const LeafColourMap::Faces beyond = colour_map_.at(beyond_lamina, autumn_);
         for (const bool upper : {true, false}) {
@@ -275,14 +266,15 @@ class LeafPainter {
         for (std::size_t x = 0; x < half; ++x) {
             if (!of_petiole && !shown_[y / tile_ * (half / tile_) + x / tile_]) continue;
             Texel upper, lower;
-            double height = 0.0;
+            double height = 0.0, inside = 0.0;
             for (std::size_t i = 0; i < points_; ++i)
                 for (std::size_t point = x * points_; point < (x + 1) * points_; ++point) {
                     if (of_petiole)
                         add_petiole(lines[i], point, upper);
                     else
-                        add_faces(lines[i], point, upper, lower, height);
+                        inside += add_faces(lines[i], point, upper, lower, height) ? share_ : 0.0;
                 }
+            if (has_sprays_) on_lamina_[y * half + x] = static_cast<float>(inside);
             const Painted one = painted_texel(upper);
             put_texel(y * count_ + x, one);
             // The strip of the petiole is mirrored where both halves meet.
@@ -340,20 +332,30 @@ class LeafPainter {
         if (span.last == half) outer(lower + 3 * (half - 1), half - 1, slope(half - 2), -1.0);
     }
 
-    // Paints a shoot of needles, and a spray of shoots, beside a needle.
+    // Takes what has been painted as the leaf of sprays.
+    void take_leaf() {
+        if (has_sprays_)
+            sprays_.emplace(chart_, images_.rgb[0], on_lamina_, count_, petiole_, seed_);
+    }
+
+    // Paints a shoot of needles and a spray of shoots beside a needle, or sprays of leaves.
     void panel_row(std::size_t y) {
-        if (!has_panels_) return;
-        // What is beside them is clear too, as far as smaller copies of the image blend it in.
-        constexpr double first_clear = 0.11, last_clear = 0.50, before = 0.05;
-        const double along = (panel_root - (static_cast<double>(y) + 0.5) / side()) / panel_length;
-        if (along < -before || along > 1.0 + before) return;
-        for (std::size_t x = column(first_clear); x < column(last_clear); ++x)
-            for (const std::size_t at : {y * count_ + x, y * count_ + x + count_ / 2})
-                images_.alpha[at] = 0;
-        paint_panel(y, along, shoot_panel,
-                    [this](double up, double across) { return shoot_at(up, across, 1.0); });
-        paint_panel(y, along, spray_panel,
-                    [this](double up, double across) { return spray_at(up, across); });
+        // What is beside a panel is clear too, as far as smaller copies of the image blend it in.
+        if (has_shoots_) {
+            clear(y, shoot_panel, 0.11, 0.50);
+            paint_panel(y, shoot_panel, [this](double along, double across) {
+                return shoot_at(along, across, 1.0);
+            });
+            paint_panel(y, spray_panel,
+                        [this](double along, double across) { return spray_at(along, across); });
+        }
+        if (!has_sprays_) return;
+        clear(y, panel_of(LeafGroup::twig), 0.245, 0.50);
+        clear(y, panel_of(LeafGroup::branch), 0.0, 0.50);
+        for (const LeafGroup spray : all_sprays)
+            paint_panel(y, panel_of(spray), [this, spray](double along, double across) {
+                return sprays_->at(spray, along, across);
+            });
     }
 
     [[nodiscard]] RawImages take() { return std::move(images_); }
@@ -375,14 +377,6 @@ class LeafPainter {
         std::size_t first = 0, last = 0;
     };
 
-    // A point of the picture of a shoot: colours of both sides, slope along the shoot, and how far light
-    // comes to it.
-    struct ShootPoint {
-        glm::dvec3 upper{0.0}, lower{0.0};
-        double tilt = 0.0, open = 0.0;
-        bool is_needle = true;  ///< or the twig
-    };
-
     // Needles of a layer: how many along a shoot, how far their tips are ahead of their roots, how far
     // they reach from the twig, half their breadth in their distance, and their light.
     struct Layer {
@@ -394,8 +388,8 @@ class LeafPainter {
                                                     Layer{30.0, 0.110, 0.62, 0.25, 1.85, 77}};
 
     /// Returns a point of the picture of a shoot where no needle is.
-    [[nodiscard]] ShootPoint between_needles() const {
-        return {0.7 * needle_.upper, 0.7 * needle_.lower, 0.0, 0.6, false};
+    [[nodiscard]] PanelPoint between_needles() const {
+        return {0.7 * needle_.upper, 0.7 * needle_.lower, {}, 0.6, false};
     }
 
     /// Returns a point of the picture of a shoot: three layers of needles on either side of a twig, the lower
@@ -404,12 +398,12 @@ class LeafPainter {
     /// along   from its root, 0, to its tip, 1
     /// across  -1..1
     /// dense   number of needles, by that of a whole shoot
-    [[nodiscard]] ShootPoint shoot_at(double along, double across, double dense) const {
-        ShootPoint seen = between_needles();
+    [[nodiscard]] PanelPoint shoot_at(double along, double across, double dense) const {
+        PanelPoint seen = between_needles();
         const double out = std::abs(across);
         const auto put = [&](const glm::dvec3& upper, const glm::dvec3& lower, double tilt,
                              double open) {
-            seen = {upper, lower, tilt, open};
+            seen = {upper, lower, {0.35 * tilt, tilt}, open};
         };
         for (std::size_t k = 0; k < layers.size(); ++k) {
             const Layer& layer = layers[k];
@@ -451,12 +445,12 @@ class LeafPainter {
     /// tip.
     ///
     /// along, across  as of a shoot
-    [[nodiscard]] ShootPoint spray_at(double along, double across) const {
+    [[nodiscard]] PanelPoint spray_at(double along, double across) const {
         constexpr int shoots = 6;  // on each side
         constexpr double half = 0.047, longest = 0.40, dense_side = 0.4;
         static const SineCosine open = sine_cosine(52.0 * pi / 180.0);
         const double x = across * spray_panel.half_breadth, out = std::abs(x);
-        ShootPoint seen = between_needles();
+        PanelPoint seen = between_needles();
         for (int k = 0; k < shoots; ++k) {
             const glm::dvec2 own = cell_middle(k, x < 0.0 ? 3 : 4, 11 + seed_);
             const double drawn = own.x - std::floor(own.x);
@@ -465,12 +459,12 @@ class LeafPainter {
             const double up = along - root, t = (out * open.sine + up * open.cosine) / length;
             const double off = (up * open.sine - out * open.cosine) / half;
             if (t < 0.0 || t > 1.0 || std::abs(off) > 1.0) continue;
-            const ShootPoint one = shoot_at(t, off, dense_side);
-            if (one.is_needle) seen = one;
+            const PanelPoint one = shoot_at(t, off, dense_side);
+            if (one.is_drawn) seen = one;
         }
         if (out < half) {
-            const ShootPoint one = shoot_at(along, x / half, 1.0);
-            if (one.is_needle) seen = one;
+            const PanelPoint one = shoot_at(along, x / half, 1.0);
+            if (one.is_drawn) seen = one;
         }
         return seen;
     }
@@ -480,44 +474,64 @@ class LeafPainter {
         return static_cast<std::size_t>(at * side());
     }
 
+    // How far beyond the ends of a panel is clear, in its length.
+    static constexpr double clear_beyond = 0.05;
+
+    /// Returns how far along a panel the middle of a row of texels is.
+    [[nodiscard]] double along_panel(std::size_t y, const LeafPanel& panel) const {
+        return (panel.root - (static_cast<double>(y) + 0.5) / side()) / panel.length;
+    }
+
+    /// Clears a row between two columns, in texture lengths, if it is one of a panel.
+    void clear(std::size_t y, const LeafPanel& panel, double first, double last) {
+        const double along = along_panel(y, panel);
+        if (along < -clear_beyond || along > 1.0 + clear_beyond) return;
+        for (std::size_t x = column(first); x < column(last); ++x)
+            for (const std::size_t at : {y * count_ + x, y * count_ + x + count_ / 2})
+                images_.alpha[at] = 0;
+    }
+
     /// Paints a row of a panel.
     ///
     /// point  returns what is at a place along and across what it shows
     template <class Point>
-    void paint_panel(std::size_t y, double along, const LeafPanel& panel, const Point& point) {
+    void paint_panel(std::size_t y, const LeafPanel& panel, const Point& point) {
+        const double along = along_panel(y, panel);
+        if (along < -clear_beyond || along > 1.0 + clear_beyond) return;
         const int points = count_ < 1024 ? 2 : 1;
         const std::size_t last = column(panel.middle + panel.half);
         for (std::size_t x = column(panel.middle - panel.half); x < last; ++x) {
-            ShootPoint sum{};
+            PanelPoint sum{};
             double covered = 0.0;
             for (int i = 0; i < points * points; ++i) {
                 const int row = i / points, across = i % points;
                 const double dx = (across + 0.5) / points - 0.5, dy = (row + 0.5) / points - 0.5;
-                const ShootPoint one = point(
-                    along + dy / (side() * panel_length),
+                const PanelPoint one = point(
+                    along - dy / (side() * panel.length),
                     ((static_cast<double>(x) + 0.5 + dx) / side() - panel.middle) / panel.half);
-                if (!one.is_needle) continue;
+                if (!one.is_drawn) continue;
                 covered += 1.0;
                 sum.upper += one.upper;
                 sum.lower += one.lower;
-                sum.tilt += one.tilt;
+                sum.slope += one.slope;
                 sum.open += one.open;
             }
             // What is clear has the colour of needles, which smaller copies blend in.
             if (covered == 0.0) {
-                sum = between_needles();
+                sum = point(-1.0, 0.0);
             } else {
                 sum.upper /= covered;
                 sum.lower /= covered;
-                sum.tilt /= covered;
+                sum.slope /= covered;
                 sum.open /= covered;
             }
-            const double rough = 0.55 + 0.2 * autumn_, up = std::sqrt(1.0 - sum.tilt * sum.tilt);
+            const double rough = 0.55 + 0.2 * autumn_;
+            const double unit = 1.0 / std::sqrt(1.0 + glm::dot(sum.slope, sum.slope));
             const std::size_t at = y * count_ + x, below = at + count_ / 2;
             put_texel(at, painted_texel({sum.upper, sum.open, rough}));
             put_texel(below, painted_texel({sum.lower, sum.open, rough + 0.15}));
-            put_normals(&images_.rgb[1][3 * at], &images_.rgb[1][3 * below], 0.35 * sum.tilt,
-                        sum.tilt, up);
+            put_normals(&images_.rgb[1][3 * at], &images_.rgb[1][3 * below], unit * sum.slope.x,
+                        unit * sum.slope.y, unit);
             images_.alpha[at] = images_.alpha[below] =
                 static_cast<std::uint8_t>(opaque * covered / (points * points));
         }
@@ -626,8 +640,8 @@ class LeafPainter {
     }
 
     // Both faces show the same positions and blotches go through the leaf, so each point is looked
-    // up once for both.
-    void add_faces(Line& line, std::size_t point, Texel& upper, Texel& lower,
+    // up once for both. Returns whether it is on the lamina.
+    bool add_faces(Line& line, std::size_t point, Texel& upper, Texel& lower,
                    double& height) const {
         const auto blotch = static_cast<double>(line.spots[point - line.from]);
         const auto cell = static_cast<double>(line.cells[point - line.from]);
@@ -679,6 +693,7 @@ class LeafPainter {
         upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.48 + gloss + rough);
         lower.add(share_, shade * faces.lower, 1.0, 0.75 + rough);
         height -= share_ * relief_ * (0.006 * depth + 0.0011 * place.net - 0.0006 * cell);
+        return place.inside;
     }
 
     void add_petiole(const Line& line, std::size_t point, Texel& texel) const {
@@ -689,6 +704,7 @@ class LeafPainter {
     }
 
     LaminaSampler sampler_;
+    bool has_shoots_, has_sprays_;  // beside the lamina
     LeafChart chart_;
     LeafColourMap colour_map_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
@@ -701,7 +717,6 @@ class LeafPainter {
     double share_;        // weight of a point in its texel
     glm::dvec3 petiole_{0.0};
     LeafColourMap::Faces needle_, young_;       // colours of a needle and of its tip
-    bool has_panels_ = false;                   // whether shoots are painted beside a needle
     std::vector<double> columns_;               // x in the plane of the lamina, by point
     std::array<std::vector<float>, 2> across_;  // the same in units of the noise lattice
     std::size_t tile_;                          // texels across
@@ -709,6 +724,8 @@ class LeafPainter {
     std::vector<Span> spans_;                   // of each row of tiles
     std::array<Bytes, 3> flat_;                 // a row of each image outside the leaf
     std::vector<float> heights_;                // of the upper face, in lengths of the lamina
+    std::vector<float> on_lamina_;              // share of each texel of the upper face, for sprays
+    std::optional<SprayPainter> sprays_;
     RawImages images_;
 };
 
@@ -724,7 +741,7 @@ bool shows_shoots(const LeafShape& shape) {
 }
 
 RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double autumn,
-                      std::uint32_t seed, int side, const Parallel& parallel) {
+                      std::uint32_t seed, int side, LeafLayout layout, const Parallel& parallel) {
     std::vector<Problem> problems;
     check(shape, Info{.name = ""}, "", problems);
     check(palette, Info{.name = ""}, "", problems);
@@ -733,9 +750,10 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
     if (!(autumn >= 0.0 && autumn <= 1.0)) report(problems, "/autumn", "is outside 0..1");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
-    LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side));
+    LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side), layout);
     for_each_row(side, parallel, [&](std::size_t y) { painter.colour_row(y); });
     for_each_row(side, parallel, [&](std::size_t y) { painter.normal_row(y); });
+    painter.take_leaf();
     for_each_row(side, parallel, [&](std::size_t y) { painter.panel_row(y); });
     return painter.take();
 }

@@ -26,13 +26,15 @@ inline constexpr double leaf_alpha_cutoff = 0.4;
 /// autumn   0: summer; 0.5: turning; 1: fallen
 /// seed     selects the blotches of this leaf
 /// side     16..2048 texels, a power of two
+/// layout   sprays have no effect for a needle
 /// returns  three RGB images, painted slightly beyond the border and constant from there on, so
-///          that mipmaps do not bleed in; with alpha where has_shoot(): between the needles of
-///          shoots it is 0
+///          that mipmaps do not bleed in; with alpha where there are shoots or sprays: between
+///          their needles or leaves it is 0
 /// throws   InvalidInput with all that check() reports, or for another side (path "/side")
 /// cost     O(side^2)
 [[nodiscard]] RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette,
                                     double autumn, std::uint32_t seed, int side,
+                                    LeafLayout layout = LeafLayout::alone,
                                     const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

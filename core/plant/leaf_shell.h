@@ -107,18 +107,23 @@ enum class Preserved {
 [[nodiscard]] Shell foliage_shell(const LeafShape& shape, const Bending& bent,
                                   std::size_t triangles, Preserved preserved);
 
-/// A part of the image of a needle that shows more than it: its middle and half its breadth in texture lengths,
+/// Returns half the breadth of a lamina, in its lengths.
+[[nodiscard]] double half_breadth(const Lamina& lamina);
+
+/// Returns whether a lamina is that of a needle, beside which there is space for shoots.
+[[nodiscard]] bool is_slim(const Lamina& lamina);
+
+/// A part of the image of a leaf that shows more than it: its middle and half its breadth in texture lengths,
 /// in the left half for the upper face.
 struct LeafPanel {
     double middle, half;
     double half_breadth;  ///< of what it shows, in its lengths
+    double root, length;  ///< of what it shows, in texture lengths
 };
 
 /// A shoot of needles, and a spray: a twig with shoots on either side.
-inline constexpr LeafPanel shoot_panel{0.205, 0.085, 0.115}, spray_panel{0.395, 0.095, 0.34};
-
-/// Root and length of both in texture lengths.
-inline constexpr double panel_root = 0.925, panel_length = 0.90;
+inline constexpr LeafPanel shoot_panel{0.205, 0.085, 0.115, 0.925, 0.90},
+    spray_panel{0.395, 0.095, 0.34, 0.925, 0.90};
 
 /// Returns the leaf of a tree at its finest level: a simple leaf of four or eight triangles is folded
 /// along its middle vein, with two or four corners beside it, and bent, where foliage_leaf() is flat or
@@ -126,8 +131,10 @@ inline constexpr double panel_root = 0.925, panel_length = 0.90;
 /// other. All others are those of foliage_leaf().
 ///
 /// triangles  4, 8, 12 or 16
+/// group      a group is shown by a card, folded too
 /// throws     as foliage_leaf()
-[[nodiscard]] Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles);
+[[nodiscard]] Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles,
+                                       LeafGroup group = LeafGroup::leaf);
 
 /// Returns the most vertices of finest_foliage_leaf() of so many triangles.
 [[nodiscard]] std::size_t finest_leaf_vertices(std::size_t triangles);

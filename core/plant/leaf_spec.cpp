@@ -1,5 +1,7 @@
 #include "core/plant/leaf_spec.h"
 
+#include "core/plant/leaf_spray.h"
+
 namespace sporeprint {
 
 LeafParams params_of(const LeafPreset& preset) {
@@ -21,6 +23,12 @@ LeafPaint paint_of(const LeafParams& params) {
     paint.eaten = params.shape.leaflets.count > 0 ? 0.0 : params.shape.eaten;
     paint.venation = params.shape.venation;
     paint.palette = params.palette;
+    return paint;
+}
+
+LeafPaint paint_on_tree(const LeafParams& params) {
+    LeafPaint paint = paint_of(params);
+    paint.sprays = shows_sprays(params.shape);
     return paint;
 }
 

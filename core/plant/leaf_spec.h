@@ -78,6 +78,7 @@ struct LeafPaint {
     ImageSide texture_size{1024};
     double relief = 0.6;
     double eaten = 0.03;
+    bool sprays = false;
     Venation venation;
     LeafPalette palette;
 
@@ -92,6 +93,11 @@ struct LeafPaint {
               Info{.name = "side", .unit = "texels", .doc = "Side of this image."});
         visit(&P::relief, info_of<LeafShape>("relief"));
         visit(&P::eaten, info_of<LeafShape>("eaten"));
+        visit(&P::sprays,
+              Info{.name = "sprays",
+                   .doc = "Whether the leaf is smaller and has a twig and a branch of such leaves "
+                          "beside it, cut out by alpha, as trees have; without effect for "
+                          "needles, which have shoots in any case."});
         visit(&P::venation, info_of<LeafShape>("venation"));
         visit(&P::palette, Info{.name = ""});
     }
@@ -109,6 +115,9 @@ struct LeafSpec {
 
 /// Returns the part of the parameters that the images depend on.
 [[nodiscard]] LeafPaint paint_of(const LeafParams& params);
+
+/// Returns the same for leaves of a tree, whose image shows sprays too.
+[[nodiscard]] LeafPaint paint_on_tree(const LeafParams& params);
 
 /// Returns the shape of the individual leaf: params.shape with the random deviations that seed and
 /// variation determine.

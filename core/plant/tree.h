@@ -257,6 +257,7 @@ struct LeafStyle {
     double droop = 0.3;
     double size_spread = 0.2;
     double hue_spread = 0.5;
+    LeafGroup leaf_group = LeafGroup::leaf;
 
     static constexpr void fields(auto visit) {
         using L = LeafStyle;
@@ -286,6 +287,12 @@ struct LeafStyle {
                    .doc = "How far branches differ from each other in the hue and the brightness "
                           "of their leaves, and by half of that in their bark: COLOR_0, by which "
                           "viewers multiply the base colour."});
+        visit(&L::leaf_group,
+              Info{.name = "leaf_group",
+                   .doc = "What is drawn at the place of each leaf: it, a twig with five smaller "
+                          "leaves, or a branch of such twigs, which cover as much as it. For trees "
+                          "that are shown much larger than they grow; compound leaves and needles "
+                          "have none."});
     }
     bool operator==(const LeafStyle&) const = default;
 };

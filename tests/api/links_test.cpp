@@ -101,7 +101,8 @@ TEST_F(LinksTest, HoldWhereverAFileWasFetchedFrom) {
                 EXPECT_TRUE(address.starts_with(base + "/v1/")) << address;
                 const Response image = handle(service, get(address));
                 EXPECT_EQ(image.status, 200) << address << text_of(image);
-                EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
+                EXPECT_EQ(header(image, "Content-Type"),
+                          address.find(".png") == std::string::npos ? "image/jpeg" : "image/png");
                 EXPECT_EQ(header(image, "Content-Location"), address);
             }
         }

@@ -21,7 +21,16 @@ double linear_light(int byte) {
 }  // namespace
 
 Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& canvas,
-              std::uint32_t parts) {
+              std::uint32_t parts, const RawImages* images) {
+    const auto is_clear = [&](const glm::vec2& at) {
+        if (images == nullptr || images->alpha.empty()) return false;
+        const auto texel = [&](float place) {
+            return static_cast<std::size_t>(std::clamp(place, 0.0F, 0.9999F) *
+                                            static_cast<float>(images->side));
+        };
+        return images->alpha[texel(at.y) * static_cast<std::size_t>(images->side) + texel(at.x)] <
+               128;
+    };
     constexpr double degree = 3.14159265358979323846 / 180.0;
     const double ca = std::cos(view.azimuth * degree), sa = std::sin(view.azimuth * degree);
     const double ce = std::cos(view.elevation * degree), se = std::sin(view.elevation * degree);
@@ -71,10 +80,11 @@ Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& can
                                                static_cast<std::size_t>(canvas.pixels) +
                                            static_cast<std::size_t>(x)];
                 if (pixel && pixel->depth >= depth) continue;
-                pixel =
-                    Pixel{depth, mesh.texture_coordinates[corners[0]] * static_cast<float>(wa) +
-                                     mesh.texture_coordinates[corners[1]] * static_cast<float>(wb) +
-                                     mesh.texture_coordinates[corners[2]] * static_cast<float>(wc)};
+                const glm::vec2 place =
+                    mesh.texture_coordinates[corners[0]] * static_cast<float>(wa) +
+                    mesh.texture_coordinates[corners[1]] * static_cast<float>(wb) +
+                    mesh.texture_coordinates[corners[2]] * static_cast<float>(wc);
+                if (!is_clear(place)) pixel = Pixel{depth, place};
             }
     }
     return drawing;

@@ -42,8 +42,11 @@ struct Drawing {
 };
 
 /// Draws the triangles of the parts in the bit set `parts` with a depth buffer.
+///
+/// images  whose alpha leaves holes, if they have any
 [[nodiscard]] Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& canvas,
-                            std::uint32_t parts = (1U << part_count) - 1U);
+                            std::uint32_t parts = (1U << part_count) - 1U,
+                            const RawImages* images = nullptr);
 
 /// Returns the number of pixels covered by exactly one of two drawings.
 [[nodiscard]] int symmetric_difference(const Drawing& a, const Drawing& b);

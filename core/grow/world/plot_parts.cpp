@@ -199,6 +199,8 @@ TreeSpec tree_spec(const PlotContent& content, std::size_t kind, std::uint64_t n
         if (lod <= finest_shoots) make_shoots_finer(spec.params.look.leaves);
         return spec;
     }
+    // The leaves of a tree that is shown several times as large as it grows would be as much too large.
+    spec.params.look.leaves.leaf_group = LeafGroup::branch;
     const LeafState state = leaves_on(content.northern_day());
     spec.params.spring = state.spring;
     spec.params.autumn = state.autumn;

@@ -71,7 +71,7 @@ std::vector<GlbPrimitive> WorldMaterials::tree(const TreeSpec& spec, const Mesh&
     if (leaf_mesh.positions.empty()) return primitives;
     const std::string leaf = spec.params.look.leaf.id.string();
     primitives.push_back(
-        {&leaf_mesh, leaves(leaf, leaf, paint_of(leaf_of(spec.params, atlas_))), {}});
+        {&leaf_mesh, leaves(leaf, leaf, paint_on_tree(leaf_of(spec.params, atlas_))), {}});
     return primitives;
 }
 

@@ -194,7 +194,8 @@ TEST_F(TreesTest, LinkedImagesAreThoseEmbedded) {
         ++(of_bark ? bark : leaves);
         const Response image = ask(address);
         ASSERT_EQ(image.status, 200) << address << text_of(image);
-        EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
+        const bool has_alpha = !of_bark && address.find("/base_color.") != std::string::npos;
+        EXPECT_EQ(header(image, "Content-Type"), has_alpha ? "image/png" : "image/jpeg");
         EXPECT_EQ(header(image, "Cache-Control"), "public, max-age=31536000, immutable");
         EXPECT_EQ(header(image, "Content-Location"), address);
         EXPECT_EQ(header(image, "Cache-Status"), "sporeprint-images; hit");
@@ -209,10 +210,10 @@ TEST_F(TreesTest, LinkedImagesAreThoseEmbedded) {
     EXPECT_EQ(bark, 3);
     EXPECT_EQ(leaves, 3);
     EXPECT_EQ(service_.counters().painted, 2u);
-    // The images that a tree painted are those of its leaf alone, without holes and marks.
+    // The images that a tree painted are those of its leaf with sprays, without holes and marks.
     const Response leaf =
-        ask("/v1/leaves/oak.glb?lod=3&texture_size=128&autumn=0.4&eaten=0&marks=0");
-    EXPECT_EQ(header(leaf, "Cache-Status"), "sporeprint-images; hit, sporeprint; fwd=miss; stored");
+        ask("/v1/leaves/oak/base_color.png?side=16&autumn=0.4&eaten=0&marks=0&sprays=true");
+    EXPECT_EQ(header(leaf, "Cache-Status"), "sporeprint-images; hit");
     EXPECT_NE(header(ask("/v1/trees/birch/orm.jpg"), "Content-Disposition").find("-orm.jpg"),
               std::string::npos);
 }

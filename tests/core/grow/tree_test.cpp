@@ -14,6 +14,9 @@
 #include "core/grow/leaf.h"
 #include "core/math/direction.h"
 #include "core/mesh/measure.h"
+#include "core/plant/leaf_image.h"
+#include "core/plant/leaf_spray.h"
+#include "tests/support/atlas.h"
 #include "tests/support/drawing.h"
 #include "tests/support/effort.h"
 #include "tests/support/glb_reader.h"
@@ -126,12 +129,22 @@ TEST_P(EveryTree, HasFewerTrianglesAtEveryLevelAndOneCrown) {
     }
 }
 
+/// Returns the images of a tree's leaves.
+RawImages foliage_images(const TreeSpec& spec) {
+    const LeafPreset& leaf = *leaf_preset(spec.params.look.leaf.id.string());
+    return leaf_images(leaf.shape, leaf.palette, 0.0, 1, 512, layout_on_trees(leaf.shape));
+}
+
 /// Returns which share of each pixel of a picture, `pixels` wide, a tree covers.
-std::vector<double> coverage(const TreeMeshes& tree, const ViewDirection& view, ImagePlane plane) {
+///
+/// images  of its leaves
+std::vector<double> coverage(const TreeMeshes& tree, const RawImages& images,
+                             const ViewDirection& view, ImagePlane plane) {
     constexpr int samples = 8;
     const int pixels = plane.pixels;
     plane.pixels *= samples;
-    const Drawing bark = drawn(tree.bark, view, plane), leaves = drawn(tree.leaves, view, plane);
+    const Drawing bark = drawn(tree.bark, view, plane),
+                  leaves = drawn(tree.leaves, view, plane, ~0U, &images);
     std::vector<double> shares(static_cast<std::size_t>(pixels * pixels));
     for (int y = 0; y < plane.pixels; ++y)
         for (int x = 0; x < plane.pixels; ++x)
@@ -144,6 +157,7 @@ std::vector<double> coverage(const TreeMeshes& tree, const ViewDirection& view, 
 // A tree of 40 pixels covers the same pixels at every level: the sum of what they differ by, relative
 // to the area of the silhouette.
 TEST_P(EveryTree, HasTheSameSilhouetteAtEveryLevel) {
+    const RawImages images = foliage_images(order_of(GetParam()));
     for (const std::uint32_t seed : {1U, 2U}) {
         TreeSpec spec = order_of(GetParam());
         spec.params.seed = seed;
@@ -156,25 +170,29 @@ TEST_P(EveryTree, HasTheSameSilhouetteAtEveryLevel) {
         std::vector<std::vector<double>> was;
         was.reserve(azimuths.size());
         for (const double azimuth : azimuths)
-            was.push_back(coverage(finest, {azimuth, 0.0}, plane));
+            was.push_back(coverage(finest, images, {azimuth, 0.0}, plane));
         for (spec.params.lod = 1; spec.params.lod < tree_lods; ++spec.params.lod) {
             const TreeMeshes coarse = tree_meshes(spec, atlas());
             double differ = 0.0, whole = 0.0;
             for (std::size_t view = 0; view < azimuths.size(); ++view) {
-                const std::vector<double> is = coverage(coarse, {azimuths[view], 0.0}, plane);
+                const std::vector<double> is =
+                    coverage(coarse, images, {azimuths[view], 0.0}, plane);
                 for (std::size_t i = 0; i < is.size(); ++i) {
                     differ += std::abs(is[i] - was[view][i]);
                     whole += was[view][i];
                 }
             }
-            // Between slim needles more light passes than through the leaves that stand for them.
-            EXPECT_LE(differ / whole, 0.125) << seed << ' ' << spec.params.lod;
+            // Between slim needles more light passes than through the leaves that stand for them, and a branch reaches
+            // farther than the ten leaves that it stands for.
+            EXPECT_LE(differ / whole, spec.params.lod < last_lod ? 0.125 : 0.14)
+                << seed << ' ' << spec.params.lod;
         }
     }
 }
 
 // A far level covers as much as the level before it, from all sides together and nearly so from each.
 TEST_P(EveryTree, CoversAsMuchAtFarLevels) {
+    const RawImages images = foliage_images(order_of(GetParam()));
     for (const std::uint32_t seed : {1U, 2U}) {
         TreeSpec spec = order_of(GetParam(), last_lod);
         spec.params.seed = seed;
@@ -189,7 +207,7 @@ TEST_P(EveryTree, CoversAsMuchAtFarLevels) {
             std::vector<double> areas;
             // Not all of the sides for which the sizes were chosen.
             for (const double azimuth : {0.0, 30.0, 60.0, 90.0, 120.0, 150.0}) {
-                const std::vector<double> shares = coverage(meshes, {azimuth, 0.0}, plane);
+                const std::vector<double> shares = coverage(meshes, images, {azimuth, 0.0}, plane);
                 areas.push_back(std::accumulate(shares.begin(), shares.end(), 0.0));
             }
             double all = 0.0, all_before = 0.0;
@@ -348,13 +366,13 @@ TEST(GrownTree, SeedsDifferInShapeAndShareImages) {
     spec.params.look.shape.fork_deg = 40.0;
     EXPECT_NE(joined(grow_tree(spec, atlas(), {}, {}, keeper.execution).glb), one);
     EXPECT_EQ(keeper.made, 2);
-    // Only the leaf uses the cached images.
-    LeafSpec leaf{"maple", leaf_of(spec.params, atlas())};
-    (void)grow_leaf(leaf, atlas(), {}, keeper.execution);
-    EXPECT_EQ(keeper.made, 2);
     spec.params.autumn = 0.5;
     (void)grow_tree(spec, atlas(), {}, {}, keeper.execution);
     EXPECT_EQ(keeper.made, 3) << "leaves turn, bark does not";
+    // A leaf alone is larger on its image.
+    LeafSpec leaf{"maple", leaf_of(spec.params, atlas())};
+    (void)grow_leaf(leaf, atlas(), {}, keeper.execution);
+    EXPECT_EQ(keeper.made, 4);
 }
 
 TEST(GrownTree, LinksImagesOrLeavesThemOut) {

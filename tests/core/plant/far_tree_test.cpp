@@ -13,6 +13,7 @@
 #include "core/mesh/measure.h"
 #include "core/plant/leaf_image.h"
 #include "core/plant/leaf_shell.h"
+#include "core/plant/leaf_spray.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint::plant_far_tree_test {
@@ -89,7 +90,8 @@ TEST(FarTree, ClumpsHaveTheColourOfTheirLeafAlsoInAutumn) {
     for (const TreePreset& preset : tree_presets()) {
         const LeafPreset& leaf = *leaf_preset(preset.leaf.id);
         const Lamina lamina = lamina_of(leaf.shape.venation, leaf_steps(leaf.shape.venation, 0));
-        const LeafChart chart = chart_of(lamina);
+        const LeafLayout layout = layout_on_trees(leaf.shape);
+        const LeafChart chart = chart_of(lamina, layout);
         const LaminaSampler sampler(lamina);
         const FarTree far = far_of(preset, 1, 2);
         glm::dvec2 clump(0.0);
@@ -101,7 +103,7 @@ TEST(FarTree, ClumpsHaveTheColourOfTheirLeafAlsoInAutumn) {
             }
         for (const double autumn : {0.0, 0.15, 0.25, 0.35, 0.5, 0.75}) {
             SCOPED_TRACE(preset.id.string() + ' ' + std::to_string(autumn));
-            const RawImages images = leaf_images(leaf.shape, leaf.palette, autumn, 1, 128);
+            const RawImages images = leaf_images(leaf.shape, leaf.palette, autumn, 1, 128, layout);
             glm::dvec3 sum(0.0);
             double places = 0.0;
             for (int i = 0; i < 60; ++i)

@@ -12,6 +12,7 @@
 #include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
 #include "core/plant/leaf_shell.h"
+#include "core/plant/leaf_spray.h"
 #include "tests/support/atlas.h"
 #include "tests/support/meshes.h"
 
@@ -191,6 +192,36 @@ TEST(FoliageOfATree, HasTheCountAndTheLeafOfItsLevel) {
             if (all > 0) {
                 EXPECT_EQ(foliage.leaf.triangles(), leaf_triangles(lod, all));
             }
+        }
+    }
+}
+
+// Branches in place of leaves have the places of leaves, and cover as much.
+TEST(FoliageOfATree, SpraysCoverWhatLeavesCover) {
+    for (const TreePreset& preset : atlas().trees()) {
+        const Preset one = preset_of(preset.id.string());
+        LeafStyle branches = one.style;
+        branches.leaf_group = LeafGroup::branch;
+        for (int lod = 0; lod < tree_lods; ++lod) {
+            SCOPED_TRACE(preset.id.string() + ' ' + std::to_string(lod));
+            const Foliage leaves = foliage_of(one.tree, one.style, one.leaf, 1, lod),
+                          sprays = foliage_of(one.tree, branches, one.leaf, 1, lod);
+            ASSERT_EQ(leaves.leaves.size(), sprays.leaves.size());
+            if (leaves.leaves.empty()) continue;
+            EXPECT_EQ(leaves.leaf.triangles(), sprays.leaf.triangles());
+            if (!shows_sprays(one.leaf)) {
+                EXPECT_EQ(leaves.leaf.positions, sprays.leaf.positions);
+                continue;
+            }
+            EXPECT_EQ(sprays.group, lod == 0 ? LeafGroup::leaf : LeafGroup::branch);
+            if (lod == 0) continue;
+            const auto covered = [](const Foliage& of) {
+                double area = 0.0;
+                for (const PlacedLeaf& leaf : of.leaves)
+                    area += leaf.size * leaf.size * leaf.breadth;
+                return area * surface_moments(of.leaf).area * of.covered;
+            };
+            EXPECT_NEAR(covered(sprays) / covered(leaves), 1.0, 0.06);
         }
     }
 }

@@ -112,7 +112,9 @@ TEST(LeafImage, IsTheSameWithAnyThreadsAndDiffersBetweenSeeds) {
         for (const auto& piece : pieces) threads.emplace_back(piece);
         for (std::thread& thread : threads) thread.join();
     };
-    EXPECT_EQ(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 1, 64, in_threads).rgb);
+    EXPECT_EQ(
+        one.rgb,
+        leaf_images(maple.shape, maple.palette, 0.4, 1, 64, LeafLayout::alone, in_threads).rgb);
     EXPECT_NE(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 2, 64).rgb);
 }
 
@@ -161,12 +163,12 @@ TEST(LeafImage, OnlyNeedlesHaveAShootWithClearGaps) {
             EXPECT_EQ(alpha(middle.x, middle.y), 255);
             const double half = upper ? 0.0 : 0.5;
             for (const LeafPanel& panel : {shoot_panel, spray_panel}) {
-                EXPECT_GT(alpha(half + panel.middle, panel_root - 0.3 * panel_length), 150);
+                EXPECT_GT(alpha(half + panel.middle, panel.root - 0.3 * panel.length), 150);
                 // Beside it nothing is drawn, so that smaller copies have no border.
                 for (const double across : {-1.06, 1.06})
                     for (const double along : {0.05, 0.5, 0.95})
                         EXPECT_EQ(alpha(half + panel.middle + across * panel.half,
-                                        panel_root - along * panel_length),
+                                        panel.root - along * panel.length),
                                   0);
             }
         }
@@ -175,7 +177,7 @@ TEST(LeafImage, OnlyNeedlesHaveAShootWithClearGaps) {
             for (double along = from; along < to; along += 0.01)
                 for (double across = -0.99; across < 1.0; across += 0.02, all += 255.0)
                     sum += alpha(panel.middle + across * panel.half,
-                                 panel_root - along * panel_length);
+                                 panel.root - along * panel.length);
             return sum / all;
         };
         EXPECT_GT(covered(shoot_panel, 0.01, 0.99), 0.4);
