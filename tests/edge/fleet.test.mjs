@@ -500,9 +500,9 @@ test("what a replica that hangs was sent is sent to another, behind each edge", 
         return text.replaceAll(/\b25s/g, "2s");
     };
     const edges = [
-        await fleet.nginx(t, pool, impatient),
+        await fleet.nginx(t, pool, { edit: impatient }),
         await fleet.varnish(t, pool, { edit: impatient }),
-        await fleet.haproxy(t, pool, impatient),
+        await fleet.haproxy(t, pool, { edit: impatient }),
     ];
     hangs = true;
     const asked = edges.flatMap(({ port }) => Array.from({ length: 8 }, (_, i) => ask(port, `/v1/${i}.glb`)));

@@ -121,7 +121,7 @@ export function configuredIn(file, edge, options, edit = (text) => text) {
 export const addressesOf = (replicas) => replicas.map((one) => `127.0.0.1:${one.port}`).join(",");
 
 /** Starts nginx with a configuration that reload() can replace. */
-export async function nginx(t, options, edit) {
+export async function nginx(t, options, { edit } = {}) {
     const own = folder(t), port = await freePort(), file = path.join(own, "nginx.conf");
     const all = (more) => ["--listen", `127.0.0.1:${port}`, "--run", own, "--cache", path.join(own, "cache"), ...more];
     configuredIn(file, "nginx", all(options), edit);
@@ -129,7 +129,7 @@ export async function nginx(t, options, edit) {
     const child = start("nginx", ["-c", file, "-e", "stderr", "-g", `daemon off; ${user}`]);
     child.port = port;
     child.reload = async (more) => {
-        configuredIn(file, "nginx", all(more));
+        configuredIn(file, "nginx", all(more), edit);
         execFileSync("nginx", ["-c", file, "-e", "stderr", "-s", "reload"]);
         await sleep(300);
     };
@@ -151,7 +151,7 @@ export async function varnish(t, options, { memory = "64M", edit } = {}) {
     return child;
 }
 
-export async function haproxy(t, options, edit) {
+export async function haproxy(t, options, { edit } = {}) {
     const own = folder(t), port = await freePort();
     const file = configuredIn(path.join(own, "haproxy.cfg"), "haproxy", ["--listen", `127.0.0.1:${port}`, ...options], edit);
     const child = start("haproxy", ["-db", "-f", file]);

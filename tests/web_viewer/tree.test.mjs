@@ -4,7 +4,6 @@ import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import {
-    galleryComplete,
     launchBrowser,
     logEvents,
     ready,
@@ -106,7 +105,6 @@ test("a change of the table posts a custom matrix, which is written to the addre
     assert.notEqual((await counts(page)).triangles, before);
     assert.ok(log.requests.some((url) => url.endsWith("/v1/trees.glb")));
     assert.equal(await page.locator("#copy-url").isDisabled(), true, "no URL contains it");
-    await galleryComplete(page); // or the browser reports cancelled requests
     await reload(page, log);
     await ready(page);
     assert.equal(await page.locator('#matrix input[data-cell="0-1"]').inputValue(), "0.6");
