@@ -149,8 +149,9 @@ glm::dvec2 card_texture(const LeafPanel& panel, const glm::dvec2& place, bool up
 // whose star would be a broad blade and not a twig.
 constexpr double widest_star = 3.0, widest_shoot = 0.9;
 
-// Share of the triangle of a card that the needles of a spray of shoots cover.
-constexpr double covered_by_shoots = 0.55;
+// Share of the triangle of a card that the needles of a spray of shoots cover, and the length of a spray that covers
+// as much as a shoot, in that of the shoot.
+constexpr double covered_by_shoots = 0.55, spray_of_shoot = 0.77;
 
 Model model_of(const LeafShape& shape, LeafLayout layout) {
     const double area = lamina_area(shape) / (shape.length * shape.length);
@@ -416,7 +417,7 @@ GroupLeaf leaf_of_group(const LeafShape& shape, std::size_t triangles, LeafGroup
     const Shell shell =
         triangles <= 4 ? flat_shell(model, triangles, share)
                        : simplified_shell(model, Bending(model.shape), triangles, Preserved::area);
-    if (!is_spray) return {shell.mesh(shape.length), covered_by_shoots};
+    if (!is_spray) return {shell.mesh(shape.length * spray_of_shoot), covered_by_shoots};
     return {shell.mesh(shape.length * length_of(shape, triangles, group)),
             covered_by(shape, triangles, group)};
 }
@@ -495,9 +496,12 @@ Mesh finest_foliage_leaf(const LeafShape& shape, std::size_t triangles, LeafGrou
                              return model.chart.texture_point(place, upper);
                          });
     } else if (shows_shoots(shape) && (is_blade || triangles == 12 || triangles == 16)) {
-        folded = folded_card(shape, shoot_panel, std::min<std::size_t>(triangles, 8));
+        const bool is_spray = group != LeafGroup::leaf;
+        const LeafPanel& panel = is_spray ? spray_panel : shoot_panel;
+        folded = folded_card(shape, panel, std::min<std::size_t>(triangles, 8));
         // A second card stands square to the first.
-        if (!is_blade) append_crossed(folded, folded_card(shape, shoot_panel, triangles - 8));
+        if (!is_blade) append_crossed(folded, folded_card(shape, panel, triangles - 8));
+        return folded.mesh(shape.length * (is_spray ? spray_of_shoot : 1.0));
     }
     return folded.triangles.empty() ? foliage_leaf(shape, triangles, 1.0, layout_on_trees(shape))
                                     : folded.mesh(shape.length);

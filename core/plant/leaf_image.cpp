@@ -447,7 +447,7 @@ class LeafPainter {
     /// along, across  as of a shoot
     [[nodiscard]] PanelPoint spray_at(double along, double across) const {
         constexpr int shoots = 6;  // on each side
-        constexpr double half = 0.047, longest = 0.40, dense_side = 0.4;
+        constexpr double half = 0.047, longest = 0.40, dense_side = 0.9;
         static const SineCosine open = sine_cosine(52.0 * pi / 180.0);
         const double x = across * spray_panel.half_breadth, out = std::abs(x);
         PanelPoint seen = between_needles();

@@ -289,10 +289,11 @@ struct LeafStyle {
                           "viewers multiply the base colour."});
         visit(&L::leaf_group,
               Info{.name = "leaf_group",
-                   .doc = "What is drawn at the place of each leaf: it, a twig with five smaller "
-                          "leaves, or a branch of such twigs, which cover as much as it. For trees "
-                          "that are shown much larger than they grow; compound leaves and needles "
-                          "have none."});
+                   .doc =
+                       "What is drawn at the place of each leaf: it, a twig with five smaller "
+                       "leaves, or a branch of such twigs, which cover as much as it; of shoots of "
+                       "needles a spray of shoots for either, of other compound leaves none. For "
+                       "trees that are shown much larger than they grow."});
     }
     bool operator==(const LeafStyle&) const = default;
 };

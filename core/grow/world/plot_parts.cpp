@@ -54,17 +54,6 @@ std::shared_ptr<const TreeMeshes> cached_meshes(const TreeSpec& spec, const Atla
     });
 }
 
-/// The last level of detail that is seen from so near that the size of shoots is noticed.
-constexpr int finest_shoots = 1;
-
-/// Replaces shoots by more and shorter ones: trees of a wood are several times as tall as the preset, which is scaled.
-void make_shoots_finer(LeafStyle& leaves) {
-    constexpr double shorter = 0.6, least_deg = 52.0;
-    leaves.per_tip *= 2;
-    leaves.leaf_size *= shorter;
-    leaves.leaf_deg = std::max(leaves.leaf_deg, least_deg);
-}
-
 TreeSize size_of(const TreeMeshes& meshes) {
     const Bounds box = bounds(meshes);
     TreeSize size;
@@ -195,12 +184,9 @@ TreeSpec tree_spec(const PlotContent& content, std::size_t kind, std::uint64_t n
     spec.params.lod = lod;
     spec.params.texture_size.value = tree_texture_side;
     spec.params.foot_soil = false;
-    if (has_needles({leaf.shape, leaf.palette})) {
-        if (lod <= finest_shoots) make_shoots_finer(spec.params.look.leaves);
-        return spec;
-    }
     // The leaves of a tree that is shown several times as large as it grows would be as much too large.
     spec.params.look.leaves.leaf_group = LeafGroup::branch;
+    if (has_needles({leaf.shape, leaf.palette})) return spec;
     const LeafState state = leaves_on(content.northern_day());
     spec.params.spring = state.spring;
     spec.params.autumn = state.autumn;

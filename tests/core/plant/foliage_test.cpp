@@ -11,6 +11,7 @@
 
 #include "core/math/principal_axes.h"
 #include "core/mesh/measure.h"
+#include "core/plant/leaf_image.h"
 #include "core/plant/leaf_shell.h"
 #include "core/plant/leaf_spray.h"
 #include "tests/support/atlas.h"
@@ -209,6 +210,7 @@ TEST(FoliageOfATree, SpraysCoverWhatLeavesCover) {
             ASSERT_EQ(leaves.leaves.size(), sprays.leaves.size());
             if (leaves.leaves.empty()) continue;
             EXPECT_EQ(leaves.leaf.triangles(), sprays.leaf.triangles());
+            if (shows_shoots(one.leaf)) continue;
             if (!shows_sprays(one.leaf)) {
                 EXPECT_EQ(leaves.leaf.positions, sprays.leaf.positions);
                 continue;
@@ -224,6 +226,22 @@ TEST(FoliageOfATree, SpraysCoverWhatLeavesCover) {
             EXPECT_NEAR(covered(sprays) / covered(leaves), 1.0, 0.06);
         }
     }
+}
+
+TEST(FoliageOfATree, ShootsOfNeedlesHaveSpraysOfShoots) {
+    const Preset spruce = preset_of("spruce");
+    LeafStyle branches = spruce.style;
+    branches.leaf_group = LeafGroup::branch;
+    const auto least_u = [&](const LeafStyle& style, int lod) {
+        float least = 1.0F;
+        for (const glm::vec2& at :
+             foliage_of(spruce.tree, style, spruce.leaf, 1, lod).leaf.texture_coordinates)
+            least = std::min(least, at.x);
+        return static_cast<double>(least);
+    };
+    const auto left_of = [](const LeafPanel& panel) { return panel.middle - panel.half; };
+    EXPECT_NEAR(least_u(spruce.style, 0), left_of(shoot_panel), 1e-6);
+    for (const int lod : {0, 3}) EXPECT_NEAR(least_u(branches, lod), left_of(spray_panel), 1e-6);
 }
 
 TEST(FoliageOfATree, ATreeWithoutLeavesHasNone) {
