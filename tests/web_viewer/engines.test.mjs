@@ -89,7 +89,13 @@ for (const profile of profiles)
             assertBox(read, json.bounds_m, name ? size / 8000 : size / 8, what);
             assert.equal(read.materials, materials, what);
             const type = webp.includes(profile) ? "image/webp" : "image/jpeg";
-            for (const image of read.images) assert.deepEqual(image, [type, 128, 128], what);
+            // The base colour of leaves on trees has alpha, which JPEG has not.
+            const types = read.images.map(([found]) => found).sort();
+            const expected = read.images.map(() => type);
+            if (route.startsWith("trees") && type === "image/jpeg")
+                expected[expected.length - 1] = "image/png";
+            assert.deepEqual(types, expected, what);
+            for (const [, ...sides] of read.images) assert.deepEqual(sides, [128, 128], what);
             if (name) assert.equal(read.triangles[0], read.stated, what);
             const chain = profile === "unreal";
             if (name) assert.equal(read.nodes.length, chain ? json.levels.length : 1, what);
