@@ -460,8 +460,7 @@ Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& sh
                       triangles = leaf_triangles(lod, all.size());
     // The same leaves at the same places, so that files with several levels share them.
     const double share = area_shares[index_of(lod)];
-    const LeafGroup of_leaf =
-        shows_sprays(shape) || shows_shoots(shape) ? style.leaf_group : LeafGroup::leaf;
+    const LeafGroup of_leaf = style.leaf_group;
     if (lod == 0) return {std::move(all), finest_foliage_leaf(shape, triangles, of_leaf)};
     if (count == all.size()) {
         GroupLeaf leaf = leaf_of_group(shape, triangles, of_leaf, share);

@@ -19,7 +19,7 @@ struct Foliage {
     Mesh leaf;
     double covered = 1.0;               ///< share of the leaf's area that its image shows leaves on
     double each = 1.0;                  ///< leaves of the tree for which each stands
-    LeafGroup group = LeafGroup::leaf;  ///< what each shows
+    LeafGroup group = LeafGroup::leaf;  ///< what each shows, if its leaf has sprays
 };
 
 /// Returns how many leaves a level of detail has, by the number of all leaves: all at levels 0 and 1

@@ -24,7 +24,7 @@ constexpr LeafPanel twig_panel{0.37, 0.115, 0.42, 0.905, 0.42},
 constexpr double petiole_length = 0.12, half_twig = 0.007, half_petiole = 0.005,
                  half_branch = 0.010;
 
-// A leaf of a twig before random deviations, across in half breadths of its panel.
+// A leaf of a twig before random deviations.
 struct Station {
     double along, angle_deg, size;
 };
