@@ -416,6 +416,7 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
         params.lod = lod;
         Bark bark;
         Foliage foliage;
+        std::size_t of_soil = 0;
         if (lod >= first_far_lod) {
             FarTree far = far_tree(tree, params.look.leaves, shape_of(leaf), params.seed,
                                    lod - first_far_lod);
@@ -425,13 +426,13 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
             bark = bark_of(tree, lod);
             if (!params.foot_soil) plant_foot(bark, tree);
             flare_roots(bark, tree, flare, params.seed, lod);
-            if (params.foot_soil) add_foot_soil(bark, tree, flare, params.seed, lod);
+            if (params.foot_soil) of_soil = add_foot_soil(bark, tree, flare, params.seed, lod);
             foliage = foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, lod);
         }
         if (sway) bark.mesh.sway = sway_of(bark, *sway);
         if (colour) bark.mesh.tints = tints_of(bark, colour->tints);
         if (colour && lod < first_far_lod)
-            tint_foot(bark.mesh.tints, bark, tree, flare, params.seed, lod,
+            tint_foot(bark.mesh.tints, bark, tree, flare, params.seed, of_soil,
                       blackness_of_foot(params.look.bark), mean_light_of(params.look.bark));
         TreeMeshes meshes{std::move(bark.mesh), {}, {}, wind};
         finish(meshes.bark, params);

@@ -55,8 +55,8 @@ std::uint32_t seed_of(std::uint32_t seed) {
 
 }  // namespace
 
-void add_foot_soil(Bark& bark, const Tree& tree, double flare, std::uint32_t seed, int lod) {
-    if (flare <= 0.0) return;
+std::size_t add_foot_soil(Bark& bark, const Tree& tree, double flare, std::uint32_t seed, int lod) {
+    if (flare <= 0.0) return 0;
     const double radius = tree.skeleton.nodes.front().radius;
     const Rings& level = level_of(lod);
     const std::uint32_t own = seed_of(seed);
@@ -124,6 +124,7 @@ void add_foot_soil(Bark& bark, const Tree& tree, double flare, std::uint32_t see
     add_tangents(piece);
     append(bark.mesh, piece);
     bark.edges.insert(bark.edges.end(), piece.positions.size(), 0U);
+    return piece.positions.size();
 }
 
 TreeCount count_of_foot_soil(const TreeShape& shape, int lod) {
@@ -134,12 +135,12 @@ TreeCount count_of_foot_soil(const TreeShape& shape, int lod) {
 }
 
 void tint_foot(std::vector<glm::vec3>& tints, const Bark& bark, const Tree& tree, double flare,
-               std::uint32_t seed, int lod, double black, const glm::vec3& light) {
+               std::uint32_t seed, std::size_t of_soil, double black, const glm::vec3& light) {
     if (flare <= 0.0) return;
     const double radius = tree.skeleton.nodes.front().radius;
     const std::uint32_t own = seed_of(seed);
     const int trunk = tree.ramification.nodes.front().order;
-    const std::size_t of_bark = tints.size() - std::min(tints.size(), vertices_of(level_of(lod)));
+    const std::size_t of_bark = tints.size() - of_soil;
     const auto noise = [&](const glm::dvec3& p, double per, std::uint32_t salt) {
         return static_cast<double>(noise_at(p, per / radius, own + salt));
     };

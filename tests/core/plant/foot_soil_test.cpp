@@ -23,7 +23,7 @@ constexpr double flare = 0.7;
 struct Grown {
     Tree tree;
     Bark bark;
-    std::size_t before = 0;
+    std::size_t before = 0, added = 0;
 };
 
 Grown grown(const char* preset, std::uint32_t seed, int lod) {
@@ -32,7 +32,7 @@ Grown grown(const char* preset, std::uint32_t seed, int lod) {
     made.bark = bark_of(made.tree, lod);
     flare_roots(made.bark, made.tree, flare, seed, lod);
     made.before = made.bark.mesh.positions.size();
-    add_foot_soil(made.bark, made.tree, flare, seed, lod);
+    made.added = add_foot_soil(made.bark, made.tree, flare, seed, lod);
     return made;
 }
 
@@ -45,6 +45,7 @@ TEST(BarkFootSoil, IsALowClosedMoundOfTheExpectedCount) {
                 const Mesh& mesh = made.bark.mesh;
                 expect_valid(mesh);
                 EXPECT_EQ(made.bark.edges.size(), mesh.positions.size());
+                EXPECT_EQ(made.before + made.added, mesh.positions.size());
                 const TreeCount count = count_of_foot_soil(atlas().find_tree(preset)->shape, lod);
                 EXPECT_EQ(static_cast<double>(mesh.positions.size() - made.before), count.vertices);
                 const double radius = made.tree.skeleton.nodes.front().radius;
@@ -65,7 +66,7 @@ TEST(BarkFootSoil, IsALowClosedMoundOfTheExpectedCount) {
 TEST(BarkFootSoil, OfNoFlareIsNone) {
     Grown made = grown("broadleaf", 1, 2);
     const std::size_t all = made.bark.mesh.positions.size();
-    add_foot_soil(made.bark, made.tree, 0.0, 1, 2);
+    EXPECT_EQ(add_foot_soil(made.bark, made.tree, 0.0, 1, 2), 0U);
     EXPECT_EQ(made.bark.mesh.positions.size(), all);
 }
 
@@ -73,7 +74,7 @@ TEST(BarkFootSoil, TintsAreFactorsAndBlackenTheFootAlone) {
     const Grown made = grown("birch", 1, 0);
     const std::size_t all = made.bark.mesh.positions.size();
     std::vector<glm::vec3> tints(all, glm::vec3(1.0F));
-    tint_foot(tints, made.bark, made.tree, flare, 1, 0, 0.9, glm::vec3(0.7F));
+    tint_foot(tints, made.bark, made.tree, flare, 1, made.added, 0.9, glm::vec3(0.7F));
     const double radius = made.tree.skeleton.nodes.front().radius;
     double darkest = 1.0;
     for (std::size_t i = 0; i < all; ++i) {
@@ -86,6 +87,17 @@ TEST(BarkFootSoil, TintsAreFactorsAndBlackenTheFootAlone) {
         }
     }
     EXPECT_LT(darkest, 0.3);
+}
+
+TEST(BarkFootSoil, TintsOfBarkAreTheSameWithoutSoil) {
+    Grown made = grown("birch", 1, 0);
+    std::vector<glm::vec3> with(made.before + made.added, glm::vec3(1.0F)),
+        without(made.before, glm::vec3(1.0F));
+    tint_foot(with, made.bark, made.tree, flare, 1, made.added, 0.9, glm::vec3(0.7F));
+    made.bark.mesh.positions.resize(made.before);
+    tint_foot(without, made.bark, made.tree, flare, 1, 0, 0.9, glm::vec3(0.7F));
+    with.resize(made.before);
+    EXPECT_EQ(with, without);
 }
 
 }  // namespace
