@@ -151,7 +151,7 @@ constexpr double widest_star = 3.0, widest_shoot = 0.9;
 
 // Share of the triangle of a card that the needles of a spray of shoots cover, and the length of a spray that covers
 // as much as a shoot, in that of the shoot.
-constexpr double covered_by_shoots = 0.55, spray_of_shoot = 0.77;
+constexpr double covered_by_shoots = 0.68, spray_of_shoot = 0.69;
 
 Model model_of(const LeafShape& shape, LeafLayout layout) {
     const double area = lamina_area(shape) / (shape.length * shape.length);

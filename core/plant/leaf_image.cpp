@@ -235,6 +235,7 @@ class LeafPainter {
         blade.homothety = 1.0;
         blade.affinity = 0.9;
         young_ = colour_map_.at(blade, autumn_);
+        if (has_shoots_) spray_shoots_ = shoots_of_spray();
         if (has_shoots_ || has_sprays_) images_.alpha.assign(count_ * count_, opaque);
         if (has_sprays_) on_lamina_.assign(count_ * count_ / 2, 0.0F);
         find_lamina_tiles();
@@ -441,32 +442,52 @@ class LeafPainter {
         return seen;
     }
 
+    /// A shoot beside that in the middle of a spray; lengths in that of the spray.
+    struct SprayShoot {
+        double root = 0.0, length = 0.0;
+        SineCosine open{};  ///< of its angle with the spray
+    };
+    static constexpr std::size_t shoots_on_side = 8;
+
+    /// Returns the shoots of a spray, on its left from the root on, then on its right.
+    [[nodiscard]] std::array<SprayShoot, 2 * shoots_on_side> shoots_of_spray() const {
+        constexpr double longest = 0.42;
+        std::array<SprayShoot, 2 * shoots_on_side> shoots;
+        for (std::size_t i = 0; i < shoots.size(); ++i) {
+            const std::size_t k = i % shoots_on_side;
+            const bool is_left = i < shoots_on_side;
+            const glm::dvec2 own = cell_middle(static_cast<int>(k), is_left ? 3 : 4, 11 + seed_);
+            const double drawn = own.x - std::floor(own.x), leaning = own.y - std::floor(own.y);
+            SprayShoot& one = shoots[i];
+            one.root = 0.9 *
+                       (static_cast<double>(k) + (is_left ? 0.05 : 0.55) + 0.3 * (leaning - 0.5)) /
+                       static_cast<double>(shoots_on_side);
+            one.length = longest * (0.35 + 0.65 * (1.0 - one.root)) * (0.6 + 0.4 * drawn);
+            // They lean forward, more so towards the tip.
+            one.open = sine_cosine(radians(62.0 - 16.0 * one.root + 16.0 * (leaning - 0.5)));
+        }
+        return shoots;
+    }
+
     /// Returns a point of the picture of a spray: shoots on either side of one in the middle, shorter towards its
     /// tip.
     ///
     /// along, across  as of a shoot
     [[nodiscard]] PanelPoint spray_at(double along, double across) const {
-        constexpr int shoots = 6;  // on each side
-        constexpr double half = 0.047, longest = 0.40, dense_side = 0.9;
-        static const SineCosine open = sine_cosine(52.0 * pi / 180.0);
+        constexpr double half = 0.052, dense_side = 0.7;
         const double x = across * spray_panel.half_breadth, out = std::abs(x);
-        PanelPoint seen = between_needles();
-        for (int k = 0; k < shoots; ++k) {
-            const glm::dvec2 own = cell_middle(k, x < 0.0 ? 3 : 4, 11 + seed_);
-            const double drawn = own.x - std::floor(own.x);
-            const double root = 0.88 * (k + (x < 0.0 ? 0.05 : 0.55)) / shoots,
-                         length = longest * (0.4 + 0.6 * (1.0 - root)) * (0.75 + 0.25 * drawn);
+        // The shoot in the middle is before the others, and later ones are before earlier ones.
+        if (out < half)
+            if (const PanelPoint one = shoot_at(along, x / half, 1.0); one.is_drawn) return one;
+        const std::size_t first = x < 0.0 ? 0 : shoots_on_side;
+        for (std::size_t k = first + shoots_on_side; k-- > first;) {
+            const auto& [root, length, open] = spray_shoots_[k];
             const double up = along - root, t = (out * open.sine + up * open.cosine) / length;
             const double off = (up * open.sine - out * open.cosine) / half;
             if (t < 0.0 || t > 1.0 || std::abs(off) > 1.0) continue;
-            const PanelPoint one = shoot_at(t, off, dense_side);
-            if (one.is_drawn) seen = one;
+            if (const PanelPoint one = shoot_at(t, off, dense_side); one.is_drawn) return one;
         }
-        if (out < half) {
-            const PanelPoint one = shoot_at(along, x / half, 1.0);
-            if (one.is_drawn) seen = one;
-        }
-        return seen;
+        return between_needles();
     }
 
     [[nodiscard]] double side() const { return static_cast<double>(count_); }
@@ -726,6 +747,7 @@ class LeafPainter {
     std::vector<float> heights_;                // of the upper face, in lengths of the lamina
     std::vector<float> on_lamina_;              // share of each texel of the upper face, for sprays
     std::optional<SprayPainter> sprays_;
+    std::array<SprayShoot, 2 * shoots_on_side> spray_shoots_{};
     RawImages images_;
 };
 
