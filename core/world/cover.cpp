@@ -14,7 +14,7 @@ namespace {
 constexpr double decay_of_leaves = 0.75, decay_of_needles = 0.3;
 
 /// Days between which leaves fall.
-constexpr double first_fall = 280.0, last_fall = 330.0;
+constexpr double first_fall = 262.0, last_fall = 330.0;
 
 /// Returns the leaves on the ground, in those that fall in a year.
 double leaves_lying(int day) {
@@ -29,8 +29,8 @@ double leaves_lying(int day) {
 /// Returns how far herbs are out, 0..1.
 double herbs_on(int day) {
     const double d = day;
-    return 0.25 * smooth_step(70.0, 110.0, d) * (1.0 - smooth_step(280.0, 320.0, d)) +
-           0.75 * smooth_step(70.0, 110.0, d) * (1.0 - smooth_step(140.0, 190.0, d));
+    return 0.4 * smooth_step(70.0, 110.0, d) * (1.0 - smooth_step(280.0, 320.0, d)) +
+           0.6 * smooth_step(70.0, 110.0, d) * (1.0 - smooth_step(140.0, 190.0, d));
 }
 
 /// Takes a share of what is left.
@@ -73,7 +73,7 @@ Cover cover_of(const CoverConditions& at) {
     cover.moss =
         take(left, 0.85 * smooth_step(0.12, 0.62, moisture) * (1.0 - 0.8 * litter * broad));
     cover.grass = take(left, 0.95 * smooth_step(0.2, 0.7, light) * (1.0 - 0.6 * litter * broad));
-    cover.herb = take(left, 0.4 * herbs_on(at.day) * smooth_step(0.1, 0.5, at.wetness) *
+    cover.herb = take(left, 0.5 * herbs_on(at.day) * smooth_step(0.1, 0.5, at.wetness) *
                                 (1.0 - 0.8 * at.acidity) * smooth_step(0.02, 0.25, at.light));
     const double covered = take(left, litter);
     cover.soil = left;
@@ -83,6 +83,13 @@ Cover cover_of(const CoverConditions& at) {
     for (std::size_t kind = 0; kind < most_kinds; ++kind)
         cover.leaves[kind] = covered * (lying[kind] / all);
     return cover;
+}
+
+FallenLeaves fallen_leaves(int day) {
+    const double d = day, since = (d + 365.0 - last_fall) / 365.0;
+    if (d <= first_fall) return {1.0, since, 0.0};
+    if (d <= last_fall) return {smooth_step(first_fall, last_fall, d), 0.0, 1.0};
+    return {1.0, since - 1.0, 1.0 - smooth_step(last_fall, 365.0, d)};
 }
 
 double litterfall(double x, double y, double radius, double wind_x, double wind_y) {

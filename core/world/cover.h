@@ -54,6 +54,19 @@ struct Cover {
 /// source  the decay of litter in four years [MuellerUsing2009]; all other constants are chosen by eye
 [[nodiscard]] Cover cover_of(const CoverConditions& conditions);
 
+/// The fallen leaves that lie on a day.
+struct FallenLeaves {
+    double new_share =
+        1.0;  ///< of those on top that fell in the last autumn, or in this one once leaves fall again
+    double faded = 0.0;  ///< how far those have faded: 0 as they fall to 1 a year later
+    double fresh = 0.0;  ///< 1 while they fall, 0 from the winter on
+};
+
+/// Returns the fallen leaves of a day of the northern year. Those of earlier years have faded altogether.
+///
+/// source  chosen by eye: litter is bright in autumn, brown in winter and greyish brown from spring on
+[[nodiscard]] FallenLeaves fallen_leaves(int day);
+
 /// The crown of a tree from which litter falls.
 struct LitterSource {
     double x = 0.0, y = 0.0;  ///< metres

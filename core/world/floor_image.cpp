@@ -174,7 +174,8 @@ class FloorPainter {
     std::vector<std::array<float, pieces>> chances_;       ///< of pieces, at the nodes of the field
     std::vector<PackedStamp> stamps_;
     std::vector<float> leaves_;  ///< at the nodes of the field, of each stamp
-    float fading_ = 0.0F, wet_ = 0.5F;
+    FallenLeaves fallen_;
+    float wet_ = 0.5F;
     float green_ = 0.86F;  ///< share of the blades of grass that are not withered
     float fresh_ = 1.0F;   ///< their brightness
     int step_bits_ = finest_step_bits;
@@ -184,6 +185,12 @@ class FloorPainter {
     void set_cover(double herbs);
     void set_stamps();
     void add_mean(const LeafStamp& stamp);
+
+    /// Returns the factor of the colour of a leaf on the ground.
+    ///
+    /// age     which of all leaves, 0 for the last ones that fell to 1
+    /// on_top  it lies on most others
+    [[nodiscard]] glm::vec3 tint_of(double age, bool on_top) const;
 
     void paint_row(FloorCanvas& canvas, int row, std::vector<float>& space) const;
     /// Mixes the mean colour of leaves into a row of soil.
@@ -216,10 +223,9 @@ FloorPainter::FloorPainter(const FloorPaint& paint, RawImages& images)
     const GrassSeason grass = grass_on(paint.day);
     green_ = static_cast<float>(1.0 - grass.dry);
     fresh_ = static_cast<float>(grass.fresh);
+    fallen_ = fallen_leaves(paint.day);
     set_cover(grass.herbs);
     set_stamps();
-    const double since = (paint.day + 365.0 - 305.0) / 365.0;
-    fading_ = static_cast<float>(std::min(1.0, since - std::floor(since)));
     wet_ = static_cast<float>(paint.wetness);
 }
 
@@ -290,8 +296,9 @@ void FloorPainter::set_stamps() {
 }
 
 void FloorPainter::add_mean(const LeafStamp& stamp) {
-    // Of the tints that paint_leaf() draws: two in three leaves show the upper face, most have faded.
-    constexpr float of_upper = 0.64F, faded = 0.80F;
+    // Of what paint_leaf() draws: two in three leaves show the upper face.
+    constexpr float of_upper = 0.64F;
+    const glm::vec3 faded = 0.5F * (tint_of(0.25, true) + tint_of(0.75, false));
     glm::vec3 sum(0.0F);
     float covered = 0.0F;
     for (const LeafStamp::Texel& texel : stamp.texels) {
@@ -299,7 +306,19 @@ void FloorPainter::add_mean(const LeafStamp& stamp) {
             texel.cover * (of_upper * texel.upper + (1.0F - of_upper) * lower_face * texel.lower);
         covered += texel.cover;
     }
-    if (covered > 0.0F) leaf_mean_ += sum * (faded / covered);
+    if (covered > 0.0F) leaf_mean_ += sum * faded / covered;
+}
+
+glm::vec3 FloorPainter::tint_of(double age, bool on_top) const {
+    constexpr glm::vec3 faded(0.50F, 0.58F, 0.70F), fresh(1.30F, 1.25F, 1.0F);
+    const bool is_new = age < fallen_.new_share;
+    const double fading = is_new ? fallen_.faded : 1.0;
+    // Leaves of earlier years lie below those of the last one.
+    const double old =
+        0.7 * age * age + fading * (0.95 + 0.35 * age) - (on_top ? 0.15 * (1.0 - fading) : 0.0);
+    const glm::vec3 tint = glm::mix(glm::vec3(1.0F), faded, unit(static_cast<float>(old)));
+    if (!is_new || !on_top) return tint;
+    return tint * glm::mix(glm::vec3(1.0F), fresh, static_cast<float>(fallen_.fresh));
 }
 
 void FloorPainter::paint_band(int from, int to) const {
@@ -535,14 +554,10 @@ void FloorPainter::paint_leaf(FloorCanvas& canvas, const Layer& layer, const Pie
     const double length = std::min(stamp.length * (0.72 + 0.5 * size), 2.0 * layer.reach / 1.42);
     const glm::dvec2 along = direction_table()[static_cast<std::size_t>(draw(7) * directions)];
     const bool lower = face < 0.36;
-    // Leaves of earlier years are darker and greyer, and those of this autumn fade until the next one.
-    const float old =
-        unit(static_cast<float>(age * age) * 0.75F + 0.5F * fading_ * static_cast<float>(age) -
-             (layer.height > 0.013F ? 0.15F : 0.0F));
     const float bright = 0.86F + 0.30F * static_cast<float>(hue);
     const float warm = 0.10F * (static_cast<float>(size) - 0.5F);
     const glm::vec3 tint = bright * glm::vec3(1.0F + warm, 1.0F, 1.0F - 1.6F * warm) *
-                           glm::mix(glm::vec3(1.0F), glm::vec3(0.58F, 0.55F, 0.56F), old);
+                           tint_of(age, layer.height > 0.013F);
     FloorLeaf leaf;
     leaf.x = piece.x;
     leaf.y = piece.y;

@@ -19,8 +19,8 @@ using Shade = std::array<float, 3>;
 inline constexpr Shade soil_dark{0.20F, 0.155F, 0.12F}, soil_pale{0.37F, 0.29F, 0.215F},
     soil_sand{0.50F, 0.43F, 0.34F}, mould_dark{0.215F, 0.155F, 0.11F},
     mould_pale{0.40F, 0.285F, 0.19F}, duff_dark{0.24F, 0.165F, 0.11F},
-    duff_pale{0.44F, 0.30F, 0.19F}, moss_dark{0.17F, 0.235F, 0.06F},
-    moss_pale{0.47F, 0.545F, 0.17F}, moss_warm{0.05F, 0.02F, -0.01F},
+    duff_pale{0.44F, 0.30F, 0.19F}, moss_dark{0.165F, 0.205F, 0.085F},
+    moss_pale{0.42F, 0.475F, 0.20F}, moss_warm{0.05F, 0.02F, -0.01F},
     sod_dark{0.19F, 0.235F, 0.10F}, sod_pale{0.36F, 0.415F, 0.17F}, rock_dark{0.33F, 0.33F, 0.31F},
     rock_pale{0.58F, 0.57F, 0.54F}, water_shade{0.13F, 0.125F, 0.10F};
 
@@ -186,19 +186,20 @@ void paint_soil(FloorCanvas& canvas, int row, const SoilRow& soil) {
             // Moss grows as cushions: domes, with the tips of its shoots as fine grain.
             const VF of = share(share_moss);
             const VF inside =
-                set(1.25F) * of - set(0.62F) + set(0.75F) * m + set(0.45F) * b + set(0.12F) * c;
+                set(1.25F) * of - set(0.62F) + set(0.75F) * m + set(0.45F) * b + set(0.12F) * c +
+                set(0.16F) * grain;
             moss =
-                hn::IfThenElseZero(of > set(least), unit(set(0.5F) + inside * set(1.0F / 0.09F)));
+                hn::IfThenElseZero(of > set(least), unit(set(0.5F) + inside * set(1.0F / 0.22F)));
             if (!hn::AllFalse(f, moss > set(0.0F))) {
                 const VF dome = moss * hn::Sqrt(unit(set(1.4F) * inside + set(0.12F)));
                 const VF shoots = unit(set(0.42F) + set(0.85F) * grain + set(0.55F) * t);
                 FloorRgb green =
-                    ramp(moss_dark, moss_pale, shoots * (set(0.45F) + set(0.55F) * dome));
+                    ramp(moss_dark, moss_pale, shoots * (set(0.72F) + set(0.28F) * dome));
                 green.r = green.r + set(moss_warm[0]) * b;
                 green.g = green.g + set(moss_warm[1]) * b;
                 green.b = green.b + set(moss_warm[2]) * b;
                 colour = mix(colour, green, moss);
-                height = height + moss * (set(0.012F) + set(0.028F) * dome + set(0.0035F) * grain +
+                height = height + moss * (set(0.003F) + set(0.037F) * dome + set(0.0035F) * grain +
                                           set(0.003F) * t);
                 roughness = mix(roughness, set(0.97F), moss);
             }

@@ -123,8 +123,10 @@ void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_
                 const std::size_t texel = 3 * (row * side + i);
                 // What is bright stands out of the floor, and is covered last.
                 const float bright = static_cast<float>(images.rgb[0][texel + 1]) / 255.0F;
+                // Towards a trunk it thins out.
+                const double edge = 0.12 + 0.4 * (1.0 - left[i]);
                 const auto own = static_cast<float>(
-                    smooth_step(-0.12, 0.12,
+                    smooth_step(-edge, edge,
                                 1.5 * cover * left[i] - 0.5 + 0.6 * static_cast<double>(sum[i]) -
                                     0.35 * static_cast<double>(bright)));
                 for (std::size_t image = 0; image < snow.size(); ++image)
