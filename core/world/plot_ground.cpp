@@ -73,6 +73,9 @@ constexpr std::array<Horizon, 6> horizons = {{{0.0F, {0.062F, 0.040F, 0.025F}},
 /// How far the soil stands before the walls of a slab, metres.
 constexpr float soil_thickness = 0.003F;
 
+/// Rows of the subsoil between the last horizon and the bottom of a wall.
+constexpr std::uint32_t subsoil_rows = 4;
+
 /// Returns how bright a place of a wall is, about 1: soil is not even.
 float unevenness(std::size_t side, std::size_t i, std::size_t row) {
     const std::uint32_t bits =
@@ -80,6 +83,21 @@ float unevenness(std::size_t side, std::size_t i, std::size_t row) {
                 static_cast<std::uint32_t>(row)},
                {0, purposes::floor_noise})[0];
     return 0.82F + 0.36F * static_cast<float>(bits >> 8U) / 16777216.0F;
+}
+
+/// Returns the same between places that are some vertices apart, so that soil has patches and no stripes.
+float patchiness(std::size_t side, std::size_t i, std::size_t row, std::size_t apart) {
+    const float part = static_cast<float>(i % apart) / static_cast<float>(apart),
+                from = unevenness(side, i / apart, row), to = unevenness(side, i / apart + 1, row);
+    return from + part * part * (3.0F - 2.0F * part) * (to - from);
+}
+
+/// Returns how deep horizons lie at a place of a wall, about 1; at its ends, where walls meet, it is 1.
+float waviness(std::size_t side, std::size_t i, std::size_t end) {
+    constexpr std::size_t apart = 9, row = 1000;
+    const float from_end =
+        static_cast<float>(std::min({i, end - i, apart})) / static_cast<float>(apart);
+    return 1.0F + 2.0F * from_end * (patchiness(side, i, row, apart) - 1.0F);
 }
 
 }  // namespace
@@ -277,7 +295,8 @@ Mesh soil_round(const Mesh& slab, const SlabParams& params) {
     for (const glm::vec3& at : slab.positions) bottom = std::min(bottom, at.y);
     const glm::vec3 corner = slab.positions[on_border(2, end, nodes)];
     const glm::vec3 wider(1.0F + soil_thickness / corner.x, 1.0F, 1.0F + soil_thickness / corner.z);
-    const auto rows = static_cast<std::uint32_t>(horizons.size());
+    const auto of_horizons = static_cast<std::uint32_t>(horizons.size()) - 1,
+               rows = of_horizons + subsoil_rows + 1;
     Mesh soil;
     for (std::size_t side = 0; side < 4; ++side) {
         const auto first = static_cast<std::uint32_t>(soil.positions.size());
@@ -289,10 +308,19 @@ Mesh soil_round(const Mesh& slab, const SlabParams& params) {
         // Of each place the horizons before the wall, and the upper and the lower end behind them.
         for (std::uint32_t i = 0; i < nodes; ++i) {
             const glm::vec3 top = slab.positions[on_border(side, i, nodes)];
+            const float whole = top.y - bottom, wavy = waviness(side, i, end),
+                        subsoil = std::min(wavy * horizons[of_horizons - 1].depth, whole);
             for (std::uint32_t row = 0; row < rows; ++row) {
-                const float depth = std::min(horizons[row].depth, top.y - bottom);
+                const bool is_horizon = row < of_horizons;
+                const float part = is_horizon ? 0.0F
+                                              : static_cast<float>(row + 1 - of_horizons) /
+                                                    static_cast<float>(subsoil_rows + 1);
+                const float depth = is_horizon ? std::min(wavy * horizons[row].depth, whole)
+                                               : subsoil + part * (whole - subsoil);
                 add(wider * glm::vec3(top.x, row + 1 == rows ? bottom : top.y - depth, top.z),
-                    outwards[side], unevenness(side, i, row) * horizons[row].colour);
+                    outwards[side],
+                    patchiness(side, i, row, 2 + row) *
+                        horizons[std::min(row, of_horizons)].colour);
             }
             add({top.x, bottom, top.z}, -outwards[side], horizons.back().colour);
             add(top, -outwards[side], horizons.front().colour);
