@@ -112,7 +112,7 @@ class BlockPlacements {
                 wood.stands_at(request_.time) ? PlacementKind::snag : PlacementKind::log;
             if (!request_.choice.has(kind) || !contains(box_, wood.at)) continue;
             const std::optional<TrunkLine> line = trunk_line(wood, content_, frame);
-            if (!line) continue;
+            if (!line || line->parts.empty()) continue;
             const glm::dvec3 foot = line->section(line->from).middle,
                              top = line->section(line->to).middle;
             Placement row;

@@ -129,28 +129,24 @@ PlotLog log_of(const DeadWood& wood, const TrunkLine& line, const PlotContent& c
             .moss;
     params.moss = std::clamp(1.4 * damp + 1.2 * lost - 0.15, 0.0, 1.0);
     SnowCapParams snow;
+    snow.seed = params.seed;
     snow.depth = content.snow_depth;
     snow.cover = content.snow;
     snow.step = detail.snow_step;
     snow.columns = detail.snow_columns;
-    std::vector<double> ends = line.breaks;
-    ends.insert(ends.begin(), line.from);
-    ends.push_back(line.to);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        constexpr double shortest = 0.2, within = 1e-6;
-        const double from = ends[i], to = ends[i + 1];
-        if (to - from < shortest) continue;
+    for (const TrunkPart& part : line.parts) {
+        constexpr double within = 1e-6;
         const auto section = [&](double s) {
-            return line.section(std::min(from + s, to - within));
+            return line.section(std::min(part.from + s, part.to - within));
         };
-        params.length = snow.length = to - from;
-        params.start = from;
-        params.seed = snow.seed = static_cast<std::uint32_t>(wood.id + i);
-        params.foot = i > 0 || from <= 0.0 ? TrunkEnd::broken : TrunkEnd::cut;
-        params.top = to < line.to || to >= line.whole ? TrunkEnd::broken : TrunkEnd::cut;
+        params.length = snow.length = part.to - part.from;
+        params.start = part.from;
+        params.foot = part.from > line.from || part.from <= 0.0 ? TrunkEnd::broken : TrunkEnd::cut;
+        params.top = part.to < line.to || part.to >= line.whole ? TrunkEnd::broken : TrunkEnd::cut;
         append(log.mesh, trunk_piece(params, section));
-        if (detail.stubs) add_stubs(log.mesh, line, from, to, lies, params, of_stubs);
+        if (detail.stubs) add_stubs(log.mesh, line, part.from, part.to, lies, params, of_stubs);
         append(log.snow, snow_cap(snow, section));
+        params.seed = ++snow.seed;
     }
     return log;
 }
@@ -215,7 +211,8 @@ PlotTrees trees_of(const PlotContent& content, const PlotOptions& options, const
                    std::uint64_t most, const Atlas& atlas, const ExecutionContext& execution) {
     std::vector<const StandTree*> standing;
     for (const StandTree& tree : content.trees)
-        if (tree.lives_at(content.time) && frame.has(tree.at)) standing.push_back(&tree);
+        if (tree.lives_at(content.time) && stands_within(tree, content.time, frame))
+            standing.push_back(&tree);
     PlotTrees made;
     for (int lod = options.lod + (options.for_picture ? 0 : 1);; ++lod) {
         made = {};
@@ -256,7 +253,7 @@ std::vector<PlotLog> logs_of(const PlotContent& content, const PlotFrame& frame,
                              const TrunkDetail& detail) {
     std::vector<PlotLog> logs;
     for (const DeadWood& wood : content.dead_wood) {
-        if (const auto line = trunk_line(wood, content, frame))
+        if (const auto line = trunk_line(wood, content, frame); line && !line->parts.empty())
             logs.push_back(log_of(wood, *line, content, cover,
                                   wood_of(preset_of(content, wood.kind, atlas)), detail));
     }
@@ -281,9 +278,7 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
             !has_needles({preset.shape, preset.palette}) && preset.shape.leaflets == Leaflets{};
         if (falls[kind]) own.one = foliage_leaf(shape_of(own.leaf), triangles);
     }
-    // Leaves fade from their fall in November on.
-    const double since = (content.northern_day() + 365.0 - 305.0) / 365.0;
-    const double faded = since - std::floor(since);
+    const FallenLeaves fallen = fallen_leaves(content.northern_day());
     const WorldBox& box = frame.box();
     const auto [west, east] = cells_of(box.west, box.east, leaf_cell);
     const auto [south, north] = cells_of(box.south, box.north, leaf_cell);
@@ -320,11 +315,12 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
                 // A leaf that leans has one side on the ground.
                 const double reach = 0.3 * scale * leaves[kind].leaf.shape.length;
                 const double bright = 0.7 + 0.3 * hue,
-                             old = std::min(1.0, 0.45 * age * age + 0.55 * faded);
+                             faded = age < fallen.new_share ? fallen.faded : 1.0,
+                             old = std::min(1.0, 0.45 * age * age + 0.75 * faded);
                 // Lower faces are paler, and duller on the ground than on the tree.
                 const glm::dvec3 tint =
                     (sign < 0.0 ? 0.62 : 1.0) * bright *
-                    glm::mix(glm::dvec3(1.0), glm::dvec3(0.38, 0.34, 0.34), old);
+                    glm::mix(glm::dvec3(1.0), glm::dvec3(0.33, 0.37, 0.43), old);
                 const glm::dvec4 turn = standing_on(normal, 2.0 * pi * angle);
                 // The root of the leaf is beside its place, so that its middle is there.
                 const glm::dvec3 root = rotated(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/world/tree_growth.h"
+#include "core/world/world.h"
 
 namespace sporeprint {
 
@@ -41,30 +43,27 @@ std::optional<std::pair<double, double>> part_within(const WorldBox& box, const 
     return std::pair{first, last};
 }
 
-/// A trunk that lies: straight, or in as few straight pieces as the ground makes of it; a rotten one is broken in any
-/// case. It rests on the ground in a few places and spans small hollows.
+/// A trunk that lies. It is rigid: it rests on the two places of the ground on either side of its middle that hold it, and
+/// breaks where it would span a deep hollow. A rotten one is broken in any case, and its pieces have come apart.
 class LyingTrunk {
   public:
     LyingTrunk(const FloorHeights& floor, const DeadWood& wood, WorldTime time)
-        : foot_(metres(wood.at.x), metres(wood.at.y)) {
+        : foot_(metres(wood.at.x), metres(wood.at.y)),
+          lost_(mass_lost(wood, time)),
+          random_(static_cast<std::uint32_t>(wood.id), purposes::plot_pieces, 5) {
         const SineCosine turn = sine_cosine(wood.direction);
         way_ = {turn.cosine, turn.sine};
-        const double lost = mass_lost(wood, time), radius = radius_at(wood, time);
-        // Rotten wood sinks into the ground.
-        raised_ = 0.72 - 0.55 * lost;
+        const double radius = radius_at(wood, time);
         step_ = wood.length / std::max(1.0, std::ceil(wood.length / most_step));
+        // Rotten wood sinks into the ground.
+        const double raised = 0.62 - 0.48 * lost_;
         for (double s = 0.0; s < wood.length + 0.5 * step_; s += step_) {
             ground_.push_back(floor.at(foot_.x + s * way_.x, foot_.y + s * way_.y));
             radii_.push_back(radius * taper_at(wood, s));
+            axis_.push_back(ground_.back() + raised * radii_.back());
         }
-        longest_ = lost > 0.6 ? 5.0 : 1e9;
-        ends_.push_back({0, 0.0});
+        longest_ = lost_ > 0.6 ? 5.0 : 1e9;
         split(0, ground_.size() - 1);
-        for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
-            const double lift = lift_of(ends_[i].at, ends_[i + 1].at);
-            for (std::size_t k = i; k < i + 2; ++k) ends_[k].lift = std::max(ends_[k].lift, lift);
-        }
-        for (End& end : ends_) end.height = level(end.at) + end.lift;
     }
 
     /// Returns the axis at a distance from the foot: its place, and its height.
@@ -73,81 +72,115 @@ class LyingTrunk {
         double height;
     };
     [[nodiscard]] Axis at(double s) const {
-        const double number = std::clamp(s / step_, 0.0, static_cast<double>(ends_.back().at));
-        std::size_t next = 1;
-        while (next + 1 < ends_.size() && static_cast<double>(ends_[next].at) < number) ++next;
-        const End &from = ends_[next - 1], &to = ends_[next];
-        const double part =
-            (number - static_cast<double>(from.at)) / static_cast<double>(to.at - from.at);
-        return {foot_ + s * way_, from.height + part * (to.height - from.height)};
+        auto next = std::find_if(pieces_.begin(), pieces_.end(),
+                                 [s](const Piece& one) { return s < one.part.to; });
+        if (next == pieces_.end()) --next;
+        const TrunkPart& part = next->part;
+        // Where wood is gone, what is left of it is nearest.
+        const double along = std::clamp(s, part.from, part.to),
+                     share = (along - part.from) / (part.to - part.from);
+        const glm::dvec2 aside(-way_.y, way_.x);
+        return {foot_ + along * way_ + glm::mix(next->aside_from, next->aside_to, share) * aside,
+                glm::mix(next->height_from, next->height_to, share)};
     }
 
-    /// Returns the places where the trunk is broken between two distances from its foot.
-    [[nodiscard]] std::vector<double> breaks(double from, double to) const {
-        std::vector<double> out;
-        for (const End& end : ends_)
-            if (const double s = static_cast<double>(end.at) * step_; s > from && s < to)
-                out.push_back(s);
+    /// Returns the pieces between two distances from the foot that are long enough to be seen.
+    [[nodiscard]] std::vector<TrunkPart> parts(double from, double to) const {
+        constexpr double shortest_seen = 0.2;
+        std::vector<TrunkPart> out;
+        for (const Piece& piece : pieces_) {
+            const TrunkPart part{std::max(piece.part.from, from), std::min(piece.part.to, to)};
+            if (part.to - part.from >= shortest_seen) out.push_back(part);
+        }
         return out;
     }
 
   private:
-    /// An end of a piece: the number of its step, how far it is raised, so that no hump buries a piece, and the height of
-    /// the axis.
-    struct End {
-        std::size_t at;
-        double lift, height = 0.0;
+    /// A piece with the height of its axis, and its distance to the left of the trunk's line, at both ends, metres.
+    struct Piece {
+        TrunkPart part;
+        double height_from, height_to;
+        double aside_from = 0.0, aside_to = 0.0;
     };
 
-    /// Returns the height of the axis over the mean ground round a step.
-    [[nodiscard]] double level(std::size_t i) const {
-        const std::size_t first = i > 0 ? i - 1 : 0, last = std::min(i + 1, ground_.size() - 1);
-        double sum = 0.0;
-        for (std::size_t k = first; k <= last; ++k) sum += ground_[k];
-        return sum / static_cast<double>(last - first + 1) + raised_ * radii_[i];
-    }
-    /// Calls a function with the height of the axis of a piece, without lift, and that of the ground at each step.
-    template <class Use>
-    void for_each_step(std::size_t from, std::size_t to, const Use& use) const {
-        const double low = level(from), high = level(to);
-        for (std::size_t i = from; i <= to; ++i) {
-            const double part = static_cast<double>(i - from) / static_cast<double>(to - from);
-            use(low + part * (high - low), ground_[i], radii_[i]);
-        }
-    }
-    /// Returns by how much a piece has to be raised, so that its axis is nowhere in the ground.
-    [[nodiscard]] double lift_of(std::size_t from, std::size_t to) const {
-        double lift = 0.0;
-        for_each_step(from, to, [&](double axis, double ground, double own) {
-            lift = std::max(lift, ground + shown * own - axis);
-        });
-        return lift;
-    }
-    /// Adds the ends of the pieces of a part.
-    void split(std::size_t from, std::size_t to) {
-        const double lift = lift_of(from, to);
-        double gap = 0.0;
-        for_each_step(from, to, [&](double axis, double ground, double own) {
-            gap = std::max(gap, axis + lift - own - ground);
-        });
-        const double length = static_cast<double>(to - from) * step_;
-        if ((gap > widest_gap && length > shortest) || length > longest_) {
-            const std::size_t middle = from + (to - from) / 2;
-            split(from, middle);
-            split(middle, to);
-        } else {
-            ends_.push_back({to, 0.0});
-        }
+    /// How a rigid piece lies: the steps that hold it, and the height of its axis at its ends.
+    struct Rest {
+        std::size_t left, right;
+        double from, to;
+    };
+
+    /// Returns how a piece between two steps comes to rest.
+    [[nodiscard]] Rest rest_of(std::size_t from, std::size_t to) const {
+        // Of all lines through two places on either side of the middle, only the highest one is nowhere below its ground.
+        const std::size_t middle = from + (to - from) / 2;
+        Rest rest{from, to, axis_[from], axis_[to]};
+        double highest = -1e300;
+        for (std::size_t i = from; i <= middle; ++i)
+            for (std::size_t j = middle + 1; j <= to; ++j) {
+                const double slope = (axis_[j] - axis_[i]) / static_cast<double>(j - i),
+                             height = axis_[i] + slope * static_cast<double>(middle - i);
+                if (height <= highest) continue;
+                highest = height;
+                rest = {i, j, axis_[i] - slope * static_cast<double>(i - from),
+                        axis_[j] + slope * static_cast<double>(to - j)};
+            }
+        return rest;
     }
 
-    /// The step at which the ground is looked at; what a trunk spans; the length of pieces that are not divided, metres;
-    /// and how far above the ground its axis is at least, in radii.
-    static constexpr double most_step = 0.6, widest_gap = 0.3, shortest = 3.0, shown = 0.1;
+    /// Adds the pieces of a part.
+    void split(std::size_t from, std::size_t to) {
+        const Rest rest = rest_of(from, to);
+        const double steps = static_cast<double>(to - from), length = steps * step_;
+        double gap = 0.0;
+        for (std::size_t i = from; i <= to; ++i) {
+            const double share = static_cast<double>(i - from) / steps;
+            gap = std::max(gap, glm::mix(rest.from, rest.to, share) - radii_[i] - ground_[i]);
+        }
+        if (!(gap > widest_gap && length > shortest) && length <= longest_) {
+            add(from, to, rest);
+            return;
+        }
+        // It breaks over what holds it, unless little would come off.
+        std::size_t where =
+            from + static_cast<std::size_t>((0.4 + 0.2 * random_.uniform()) * steps + 0.5);
+        for (const std::size_t held : {rest.left, rest.right})
+            if (length <= longest_ && static_cast<double>(held - from) * step_ > 0.4 * shortest &&
+                static_cast<double>(to - held) * step_ > 0.4 * shortest)
+                where = held;
+        where = std::clamp(where, from + 1, to - 1);
+        split(from, where);
+        split(where, to);
+    }
+
+    void add(std::size_t from, std::size_t to, const Rest& rest) {
+        Piece piece{{static_cast<double>(from) * step_, static_cast<double>(to) * step_},
+                    rest.from,
+                    rest.to};
+        // Rot takes the wood at a break, and what is loose has rolled.
+        const double loose = smooth_step(0.25, 0.8, lost_),
+                     length = piece.part.to - piece.part.from,
+                     slope = (rest.to - rest.from) / length;
+        const auto shorten = [&](double& end, double& height, double way) {
+            const double by = way * loose * std::min(0.04 + 0.2 * random_.uniform(), 0.2 * length);
+            end += by;
+            height += by * slope;
+        };
+        if (from > 0) shorten(piece.part.from, piece.height_from, 1.0);
+        if (to + 1 < ground_.size()) shorten(piece.part.to, piece.height_to, -1.0);
+        piece.aside_from = 0.6 * loose * radii_[from] * random_.symmetric();
+        piece.aside_to = 0.6 * loose * radii_[to] * random_.symmetric();
+        pieces_.push_back(piece);
+    }
+
+    /// The step at which the ground is looked at; what a trunk spans; and the length of pieces that are not divided, metres.
+    static constexpr double most_step = 0.6, widest_gap = 0.45, shortest = 4.0;
 
     glm::dvec2 foot_, way_{1.0, 0.0};
-    double raised_ = 0.0, step_ = most_step, longest_ = 0.0;
-    std::vector<double> ground_, radii_;  ///< at each step
-    std::vector<End> ends_;
+    double lost_, step_ = most_step, longest_ = 0.0;
+    Random random_;
+    std::vector<double> ground_, radii_,
+        axis_;  ///< at each step; the axis where the ground holds it
+    std::vector<Piece> pieces_;
 };
 
 TrunkLine line_of_snag(const DeadWood& wood, const PlotContent& content, const PlotFrame& frame) {
@@ -156,7 +189,7 @@ TrunkLine line_of_snag(const DeadWood& wood, const PlotContent& content, const P
     const double height = length_at(wood, content.time);
     const double ground = frame.floor().at(x, y) - 0.2 * radius;
     return {
-        0.0, height, height, {}, [=, &frame](double up) {
+        0.0, height, height, {{0.0, height}}, [=, &frame](double up) {
             const double flare = 0.55 * exponential(-std::max(up, 0.0) / (1.6 * radius));
             return TrunkSection{frame.at(x, y, ground + up), radius * (taper_at(wood, up) + flare)};
         }};
@@ -181,7 +214,8 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
     const LyingTrunk lying(frame.floor(), wood, content.time);
-    return TrunkLine{from, to, whole, lying.breaks(from, to), [=, &frame](double s) {
+    std::vector<TrunkPart> parts = lying.parts(from, to);
+    return TrunkLine{from, to, whole, std::move(parts), [=, &frame](double s) {
                          const LyingTrunk::Axis axis = lying.at(s);
                          return TrunkSection{frame.at(axis.at.x, axis.at.y, axis.height),
                                              radius * taper_at(wood, s)};
@@ -213,6 +247,16 @@ std::string id_text(std::uint64_t id) {
     return text;
 }
 
+bool stands_within(const StandTree& tree, WorldTime time, const PlotFrame& frame) {
+    // Of a trunk's radius.
+    constexpr double roots = 1.6;
+    const double x = metres(tree.at.x), y = metres(tree.at.y),
+                 foot = roots * 0.5 * trunk_diameter(height_at(tree, time));
+    const WorldBox& box = frame.box();
+    return x - foot >= box.west && x + foot < box.east && y - foot >= box.south &&
+           y + foot < box.north;
+}
+
 GlbTransform place_of(const StandTree& tree, WorldTime time, const TreeSize& model,
                       const PlotFrame& frame) {
     const double x = metres(tree.at.x), y = metres(tree.at.y);
@@ -236,6 +280,50 @@ std::optional<TrunkLine> trunk_line(const DeadWood& wood, const PlotContent& con
     if (wood.stands_at(content.time) && frame.has(wood.at))
         return line_of_snag(wood, content, frame);
     return std::nullopt;
+}
+
+std::vector<Contact> contacts_on(const PlotContent& content, const PlotFrame& frame, bool is_slab) {
+    constexpr double foot_radii = 1.2, step = 0.4, most_gap = 0.25;
+    const WorldBox wide = grown(frame.box(), 2.0);
+    std::vector<Contact> contacts;
+    for (const StandTree& tree : content.trees) {
+        if (!tree.lives_at(content.time) || !contains(wide, tree.at) ||
+            (is_slab && !stands_within(tree, content.time, frame)))
+            continue;
+        const glm::dvec2 at(metres(tree.at.x), metres(tree.at.y));
+        const double diameter = trunk_diameter(height_at(tree, content.time));
+        if (diameter > 0.0) contacts.push_back({at, at, 0.5 * foot_radii * diameter});
+    }
+    const auto place_of_section = [&](const TrunkSection& section) {
+        const glm::dvec3 at = section.middle + frame.origin();
+        return glm::dvec2(at.x, -at.z);
+    };
+    for (const DeadWood& wood : content.dead_wood) {
+        const std::optional<TrunkLine> line = trunk_line(wood, content, frame);
+        if (!line) continue;
+        if (!wood.lies_at(content.time)) {
+            const TrunkSection foot = line->section(0.0);
+            contacts.push_back({place_of_section(foot), place_of_section(foot), foot.radius});
+            continue;
+        }
+        for (const TrunkPart& part : line->parts) {
+            const double steps = std::max(1.0, std::ceil((part.to - part.from) / step));
+            const auto section_at = [&](double i) {
+                return line->section(
+                    std::min(part.from + (part.to - part.from) * i / steps, part.to - 1e-6));
+            };
+            for (double i = 0.0; i < steps; i += 1.0) {
+                const TrunkSection from = section_at(i), to = section_at(i + 1.0);
+                const glm::dvec2 start = place_of_section(from), end = place_of_section(to);
+                const glm::dvec2 middle = 0.5 * (start + end);
+                const double radius = 0.5 * (from.radius + to.radius),
+                             below = 0.5 * (from.middle.y + to.middle.y) + frame.height() - radius;
+                if (below - frame.floor().at(middle.x, middle.y) < most_gap * radius)
+                    contacts.push_back({start, end, radius});
+            }
+        }
+    }
+    return contacts;
 }
 
 std::optional<glm::dvec3> BearingTrunks::place(const FruitBody& body, const glm::dvec3& out) {

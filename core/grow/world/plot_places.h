@@ -9,10 +9,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/gltf/glb.h"
 #include "core/grow/world/plot.h"
 #include "core/plant/trunk_piece.h"
+#include "core/world/contact_shade.h"
 
 namespace sporeprint {
 
@@ -46,6 +48,10 @@ class PlotFrame {
 /// Returns the id of a record as 16 hexadecimal digits, since numbers of JSON have 53 bits.
 [[nodiscard]] std::string id_text(std::uint64_t id);
 
+/// Returns true if the foot of a tree is on the plot as a whole, with its roots: one that is cut would hang in the air
+/// before the wall of a slab.
+[[nodiscard]] bool stands_within(const StandTree& tree, WorldTime time, const PlotFrame& frame);
+
 /// The size of the model that shows a tree: height, and radius of its crown, metres.
 struct TreeSize {
     double height = 1.0, radius = 0.3;
@@ -55,18 +61,31 @@ struct TreeSize {
 [[nodiscard]] GlbTransform place_of(const StandTree& tree, WorldTime time, const TreeSize& model,
                                     const PlotFrame& frame);
 
+/// A piece of a dead trunk between two distances from its foot, metres.
+struct TrunkPart {
+    double from = 0.0, to = 0.0;
+};
+
 /// The part of a dead trunk that is on a plot.
 struct TrunkLine {
     double from = 0.0, to = 0.0;  ///< distances from its foot, metres
     double whole = 0.0;           ///< length of what is left of it, metres
-    std::vector<double> breaks;   ///< distances of the places where the part is broken, metres
-    /// Returns the section at a distance from the foot, also beyond the part; lives as long as the frame.
+    std::vector<TrunkPart>
+        parts;  ///< its pieces from the foot on; rotten ones are apart, and short ones are left out
+    /// Returns the section at a distance from the foot, also beyond the part; lives as long as the frame. Between two
+    /// pieces it is that of the nearer end of the later one.
     std::function<TrunkSection(double)> section;
 };
 
 /// Returns how a dead trunk lies or stands on a plot; nothing for one that is not there.
 [[nodiscard]] std::optional<TrunkLine> trunk_line(const DeadWood& wood, const PlotContent& content,
                                                   const PlotFrame& frame);
+
+/// Returns where trunks touch the floor: the feet of trees and snags, and logs where they do not span a hollow.
+///
+/// is_slab  trees that are not stands_within() the plot are not shown, and touch nothing
+[[nodiscard]] std::vector<Contact> contacts_on(const PlotContent& content, const PlotFrame& frame,
+                                               bool is_slab);
 
 /// The dead trunks of a plot on which bodies grow. Refers to the content and the frame.
 class BearingTrunks {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/math/direction.h"
@@ -77,29 +79,72 @@ TEST(PlotPlaces, OfBodiesOnALogDoNotDependOnThePlot) {
     }
 }
 
+/// Returns a log of the small wood that has lost a share of its mass.
+DeadWood log_that_lost(double share, const PlotContent& content) {
+    DeadWood log = small_wood().dead.front();
+    log.decay = -std::log(1.0 - share) / years_between(log.died, content.time);
+    return log;
+}
+
 TEST(PlotPlaces, OfARottenLogAreOnMoreAndShorterPiecesThatAreStraight) {
-    const SmallWood& wood = small_wood();
-    Framed on(wood.content(0.0, 0.0, 32.0));
-    DeadWood log = wood.dead.front();
-    std::size_t before = 0;
+    const Framed on(small_wood().content(0.0, 0.0, 32.0));
+    std::size_t before = 1;
     for (const double lost : {0.1, 0.45, 0.8}) {
-        log.decay = -std::log(1.0 - lost) / years_between(log.died, on.content.time);
-        const auto line = trunk_line(log, on.content, on.frame);
+        const auto line = trunk_line(log_that_lost(lost, on.content), on.content, on.frame);
         ASSERT_TRUE(line);
-        EXPECT_GE(line->breaks.size(), before);
-        before = line->breaks.size();
-        std::vector<double> ends = line->breaks;
-        ends.insert(ends.begin(), line->from);
-        ends.push_back(line->to);
-        for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-            const double from = ends[i], to = ends[i + 1] - 1e-6;
-            // The axis is above that of the lower side by a part of the radius, which is linear too.
+        EXPECT_GE(line->parts.size(), before);
+        before = line->parts.size();
+        double last = line->from;
+        for (const TrunkPart& part : line->parts) {
+            EXPECT_GE(part.from, last);
+            last = part.to;
+            const double from = part.from, to = part.to - 1e-6;
             const glm::dvec3 middle = line->section(0.5 * (from + to)).middle;
             const glm::dvec3 mean = 0.5 * (line->section(from).middle + line->section(to).middle);
-            EXPECT_LT(glm::distance(middle, mean), 1e-6) << lost << ", piece " << i;
+            EXPECT_LT(glm::distance(middle, mean), 1e-6) << lost << ", piece from " << from;
+        }
+        EXPECT_LE(last, line->to);
+    }
+    EXPECT_GT(before, 2U);
+}
+
+TEST(PlotPlaces, OfALogRestOnTheGroundAtTwoPlacesAndAreNowhereBelowIt) {
+    const Framed on(small_wood().content(0.0, 0.0, 32.0));
+    for (const double lost : {0.05, 0.3, 0.55, 0.85}) {
+        const auto line = trunk_line(log_that_lost(lost, on.content), on.content, on.frame);
+        ASSERT_TRUE(line);
+        for (const TrunkPart& part : line->parts) {
+            double left = 1e9, right = 1e9;
+            constexpr int places = 400;
+            for (int i = 0; i <= places; ++i) {
+                const double share = static_cast<double>(i) / places;
+                const TrunkSection section =
+                    line->section(glm::mix(part.from, part.to - 1e-6, share));
+                const glm::dvec3 at = section.middle + on.frame.origin();
+                const double above = at.y - on.floor.at(at.x, -at.z);
+                EXPECT_GT(above, -0.03) << "between two steps the ground may be a little higher";
+                double& side = share < 0.5 ? left : right;
+                side = std::min(side, above / section.radius);
+            }
+            EXPECT_LT(left, 1.0) << "it touches the ground on either side of its middle";
+            EXPECT_LT(right, 1.0);
         }
     }
-    EXPECT_GT(before, 1U);
+}
+
+TEST(PlotPlaces, OfTreesWithinAPlotHaveTheirRootsOnIt) {
+    const Framed on(small_wood().content());
+    StandTree tree = small_wood().trees.front();
+    tree.at = on.content.centre;
+    EXPECT_TRUE(stands_within(tree, on.content.time, on.frame));
+    const WorldBox& box = on.frame.box();
+    const double radius = 0.5 * trunk_diameter(height_at(tree, on.content.time)),
+                 y = 0.5 * (box.south + box.north);
+    tree.at = world_point(box.east - 1.1 * radius, y);
+    EXPECT_TRUE(on.frame.has(tree.at));
+    EXPECT_FALSE(stands_within(tree, on.content.time, on.frame));
+    tree.at = world_point(box.east - 2.0 * radius, y);
+    EXPECT_TRUE(stands_within(tree, on.content.time, on.frame));
 }
 
 TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {
@@ -115,6 +160,26 @@ TEST(PlotPlaces, OfALogEndAtTheBordersOfThePlot) {
     EXPECT_LT(part->to, 9.0);
     EXPECT_GE(part->section(part->from).middle.x, -2.0);
     EXPECT_LE(part->section(part->to).middle.x, 2.0);
+}
+
+TEST(PlotPlaces, ContactsAreFeetOnThePlotAndLogsWhereTheyTouchTheGround) {
+    const Framed on(small_wood().content(0.0, 0.0, 32.0));
+    const std::vector<Contact> contacts = contacts_on(on.content, on.frame, true);
+    std::size_t feet = 0;
+    for (const StandTree& tree : on.content.trees) {
+        const glm::dvec2 at(metres(tree.at.x), metres(tree.at.y));
+        const bool is_shown =
+            tree.lives_at(on.content.time) && stands_within(tree, on.content.time, on.frame);
+        const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const Contact& one) {
+            return one.from == at && one.to == at;
+        });
+        EXPECT_EQ(found != contacts.end(), is_shown);
+        feet += is_shown ? 1 : 0;
+    }
+    EXPECT_GT(feet, 0U);
+    EXPECT_GT(contacts.size(), feet);
+    for (const Contact& one : contacts) EXPECT_LT(glm::distance(one.from, one.to), 0.5);
+    EXPECT_GE(contacts_on(on.content, on.frame, false).size(), contacts.size());
 }
 
 TEST(PlotPlaces, WriteIdsInSixteenDigits) {
