@@ -4,6 +4,6 @@
 namespace sporeprint {
 
 /// It is raised whenever bytes change for an unchanged request.
-inline constexpr int generator_version = 40;
+inline constexpr int generator_version = 41;
 
 }  // namespace sporeprint

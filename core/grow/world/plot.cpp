@@ -14,6 +14,7 @@
 #include "core/grow/translucency.h"
 #include "core/grow/wood.h"
 #include "core/grow/world/body_nodes.h"
+#include "core/grow/world/ferns.h"
 #include "core/grow/world/flowers.h"
 #include "core/grow/world/plot_bodies.h"
 #include "core/grow/world/plot_parts.h"
@@ -118,14 +119,14 @@ class PlotScene {
     WorldMaterials materials_;
     PlotTrees trees_;
     PlotBodies bodies_;
-    std::vector<PlotLeaves> leaves_;
+    std::vector<PlotLeaves> leaves_, ferns_;
     std::uint64_t vertices_ = 0, triangles_ = 0;
     std::vector<std::size_t> tree_nodes_, body_nodes_;
     std::vector<std::pair<std::uint64_t, std::size_t>> log_nodes_;
     Bounds box_{glm::vec3(1e9F), glm::vec3(-1e9F)};
     bool is_empty_ = false;  ///< nothing is shown
 
-    /// Adds leaves and grass.
+    /// Adds leaves, flowers, ferns and grass.
     void add_floor(const PlotFrame& frame, const CoverField& cover) {
         // Of a large plot, fewer leaves per m².
         constexpr double of_leaf = 12.0;
@@ -133,8 +134,11 @@ class PlotScene {
             static_cast<double>(most_of_leaves) / (of_leaf * content_.size * content_.size);
         if (const double per_m2 = std::min(options_.litter, most_per_m2); per_m2 > 0.0)
             leaves_ = leaves_of(content_, frame, cover, per_m2, atlas_);
-        add_leaves();
+        add_copies(leaves_, "fallen", "litter");
         add_flowers(frame, cover);
+        ferns_ = ferns_of(content_, frame, cover, std::max(options_.lod, least_fern_lod), atlas_,
+                          rim_of_ferns);
+        add_copies(ferns_, "fern", "fern");
         const std::uint64_t most =
             options_.for_picture ? most_picture_triangles : most_plot_triangles;
         const std::uint64_t left = most - std::min(most, triangles_);
@@ -171,8 +175,9 @@ class PlotScene {
         Mesh soil = soil_round(slab, params);
         without_images(slab);
         const std::size_t ground = materials_.ground("plot_ground", [&](ImageFormat format) {
-            const RawImages painted =
+            RawImages painted =
                 floor_of(content_, cover, options_.texture_size, true, atlas_, execution_.parallel);
+            add_contact_shade(painted, params.box, contacts_on(content_, frame, true));
             throw_if_cancelled(execution_);
             return encoded(painted, format, execution_.parallel);
         });
@@ -230,19 +235,24 @@ class PlotScene {
             add_single(std::move(snow), "snow", materials_.plain("snow"), GlbRole::body);
     }
 
-    void add_leaves() {
-        for (PlotLeaves& own : leaves_) {
-            const std::size_t leaves = materials_.leaves("fallen", own.preset, paint_of(own.leaf));
+    /// Adds leaves or fronds.
+    ///
+    /// material  before the hash of their images
+    /// name      of their nodes, before a number
+    void add_copies(std::vector<PlotLeaves>& copies, const std::string& material,
+                    const std::string& name) {
+        for (PlotLeaves& own : copies) {
+            const std::size_t leaves = materials_.leaves(material, own.preset, paint_of(own.leaf));
             without_images(own.one);
-            const std::string name = "litter_" + std::to_string(&own - leaves_.data() + 1);
+            const std::string numbered = name + '_' + std::to_string(&own - copies.data() + 1);
             if (options_.instancing == LeafInstancing::gpu) {
                 vertices_ += own.one.positions.size();
                 triangles_ += own.one.triangles() * own.places.size();
                 scene_.nodes.push_back(
-                    {.name = name, .mesh = scene_.meshes.size(), .instances = own.places});
-                scene_.meshes.push_back({name, {{&own.one, leaves, {}}}, GlbRole::foliage});
+                    {.name = numbered, .mesh = scene_.meshes.size(), .instances = own.places});
+                scene_.meshes.push_back({numbered, {{&own.one, leaves, {}}}, GlbRole::foliage});
             } else {
-                add_single(own.merged(), name, leaves, GlbRole::foliage);
+                add_single(own.merged(), numbered, leaves, GlbRole::foliage);
             }
         }
     }
@@ -403,7 +413,7 @@ LeafState leaves_on(int day) {
     // Full green comes about six weeks after the leaves.
     const double young = 1.0 - smooth_step(first_leaves + 6.0, first_leaves + 46.0, day);
     state.spring = state.bare ? 0.0 : std::floor(young * 8.0 + 0.5) / 8.0;
-    const double turned = 0.9 * smooth_step(258.0, 312.0, day);
+    const double turned = 0.9 * smooth_step(246.0, 312.0, day);
     state.autumn = state.bare ? 0.0 : std::floor(turned * 16.0 + 0.5) / 16.0;
     return state;
 }

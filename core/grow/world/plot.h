@@ -56,7 +56,7 @@ struct PlotContent {
 /// How far trees beyond a plot affect it, metres.
 inline constexpr double plot_margin = 21.0;
 
-/// The parts of a plot. `floor` is what lies and grows on the ground: dead wood, leaves and grass.
+/// The parts of a plot. `floor` is what lies and grows on the ground: dead wood, leaves, flowers, ferns and grass.
 enum class PlotLayer { ground, trees, floor, fungi };
 inline constexpr std::size_t plot_layer_count = 4;
 
@@ -140,7 +140,7 @@ struct LeafState {
 ///
 /// Each layer is the same whichever others there are, but for the detail of grass.
 ///
-/// returns  the GLB: one mesh for the slab, one for each individual of a tree, each log and snag, leaves, grass, and
+/// returns  the GLB: one mesh for the slab, one for each individual of a tree, each log and snag, leaves, flowers, ferns, grass, and
 ///          each individual of a mushroom; nodes for all trees and bodies. asset.extras lists these with their ids
 /// throws   InvalidInput (paths "/kinds", "/species", "/size", "/layers", "/texture_size"), Impossible for linked images (path "/textures"), Cancelled
 [[nodiscard]] Grown grow_plot(const PlotContent& content, const PlotOptions& options,

@@ -19,6 +19,7 @@
 #include "core/grow/painting.h"
 #include "core/grow/tree.h"
 #include "core/grow/wood.h"
+#include "core/grow/world/ferns.h"
 #include "core/grow/world/flowers.h"
 #include "core/grow/world/ground_ring.h"
 #include "core/grow/world/parts.h"
@@ -73,6 +74,9 @@ constexpr std::uint64_t most_of_trees = 2'500'000, most_of_bodies = 400'000;
 /// within a distance, metres.
 constexpr int nearest_tufts = 48, near_tufts = 20, middle_tufts = 8;
 constexpr double middle_tufts_within = 45.0;
+
+/// How far from the camera ferns are shown, metres.
+constexpr double least_to_fern = 1.5, ferns_within = 24.0;
 
 /// The distance from which on there are fewer of them, as the square of the distance grows, metres.
 constexpr double all_tufts_within = 9.0;
@@ -285,9 +289,11 @@ class Scenery {
         const int texels = hole && has_pieces(box) ? fine_texels : ground_texels;
         const std::size_t material = materials_.ground(name, [&](ImageFormat format) {
             const CoverField& cover = cover_on(box, content);
-            return encoded(
-                floor_of(content, cover, texels, has_pieces(box), atlas_, execution_.parallel),
-                format, execution_.parallel);
+            RawImages painted =
+                floor_of(content, cover, texels, has_pieces(box), atlas_, execution_.parallel);
+            if (has_pieces(box))
+                add_contact_shade(painted, box, contacts_on(content, frame, false));
+            return encoded(painted, format, execution_.parallel);
         });
         const GroundRingParams ring{box, hole, finest, growth, texels, frame.height()};
         add_single(
@@ -435,9 +441,31 @@ class Scenery {
         for (const PlotFlowers& own : flowers_on(content, frame, cover))
             add_single(parent, own.merged(), own.name, materials_.plain("flowers"),
                        GlbRole::foliage);
+        add_ferns();
         add_tufts(nearest_, near_tufts, nearest_tufts, {});
         add_tufts(near_, 0, near_tufts, {});
         add_tufts(middle_, 0, middle_tufts, near_);
+    }
+
+    void add_ferns() {
+        const PlotContent content = content_on(middle_);
+        const PlotFrame frame(content, *floor_);
+        const std::size_t parent = node_of(frame);
+        for (PlotLeaves& own :
+             ferns_of(content, frame, cover_on(middle_, content), least_fern_lod, atlas_)) {
+            std::erase_if(own.places, [&](const GlbTransform& place) {
+                const glm::dvec2 at(frame.origin().x + place.translation.x,
+                                    -frame.origin().z - place.translation.z);
+                const double away = glm::distance(at, eye());
+                // One at the camera would hide everything.
+                return away < least_to_fern || away > ferns_within ||
+                       glm::dot(at - eye(), gaze()) < 0.5 * away - 1.5;
+            });
+            if (!own.places.empty())
+                add_single(parent, own.merged(), "fern",
+                           materials_.leaves("fern", own.preset, paint_of(own.leaf)),
+                           GlbRole::foliage);
+        }
     }
 
     /// Adds the tufts of grass of a square.

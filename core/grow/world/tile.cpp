@@ -18,6 +18,7 @@
 #include "core/grow/painting.h"
 #include "core/grow/tree.h"
 #include "core/grow/wood.h"
+#include "core/grow/world/ferns.h"
 #include "core/grow/world/flowers.h"
 #include "core/grow/world/parts.h"
 #include "core/grow/world/plot_bodies.h"
@@ -382,6 +383,7 @@ class TileScene {
         set_step(trunk_step);
     }
 
+    /// Adds grass and ferns.
     void add_grass(const PlotFrame& frame, const CoverField& cover) {
         const std::vector<std::vector<GlbTransform>> places = tufts_on(content_, frame, cover);
         for (std::size_t shape = 0; shape < places.size(); ++shape) {
@@ -390,6 +392,11 @@ class TileScene {
             meshes_.push_back(tuft_mesh(shape, grass_on(content_.northern_day())));
             add_repeated("grass_" + std::to_string(shape + 1), meshes_.back(), blades,
                          places[shape]);
+        }
+        for (PlotLeaves& own : ferns_of(content_, frame, cover, last_lod, atlas_)) {
+            const std::size_t fronds = materials_.leaves("fern", own.preset, paint_of(own.leaf));
+            meshes_.push_back(std::move(own.one));
+            add_repeated("fern", meshes_.back(), fronds, own.places);
         }
     }
 

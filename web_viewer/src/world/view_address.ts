@@ -7,7 +7,7 @@ export type Layer = (typeof layers)[number];
 export const layerLabels: Readonly<Record<Layer, string>> = {
     ground: "Ground",
     trees: "Trees",
-    floor: "Dead wood, leaves, grass",
+    floor: "Dead wood, leaves, ferns, grass",
     fungi: "Fungi",
 };
 
