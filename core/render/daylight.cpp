@@ -35,6 +35,9 @@ constexpr double sun_radius = 0.02;
 /// Lights of the sun, of the sky and of the ground.
 constexpr int sun_parts = 8, sky_parts = 28, ground_parts = 6;
 
+/// The roughness from which on a surface shows less of the sky as a mirror, and none of it at 1.
+constexpr float rough = 0.6F;
+
 /// Koschmieder's law: the optical depth of the air as far as one can see.
 constexpr double depth_of_visibility = 3.912;
 
@@ -80,7 +83,9 @@ glm::vec3 Sky::mirrored(const glm::vec3& direction, float roughness) const {
     const auto share =
         static_cast<float>(smooth_step(-width, width, static_cast<double>(direction.y)));
     const glm::vec3 above = mix(horizon_, zenith_, std::max(direction.y, 0.0F));
-    return mix(ground_, above, share);
+    // The pieces of rough ground, such as litter, hide the sky from each other.
+    const float open = std::clamp((1.0F - roughness) / (1.0F - rough), 0.0F, 1.0F);
+    return mix(ground_, above, share) * open;
 }
 
 glm::vec3 Sky::through_air(const glm::vec3& light, const glm::vec3& direction,

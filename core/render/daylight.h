@@ -34,7 +34,7 @@ class Sky {
     /// direction  unit vector
     [[nodiscard]] glm::vec3 at(const glm::vec3& direction) const;
 
-    /// Returns what a surface of a roughness shows of sky and ground as a mirror.
+    /// Returns what a surface of a roughness shows of sky and ground as a mirror; nothing for a roughness of 1.
     ///
     /// direction  of the mirrored ray, unit
     [[nodiscard]] glm::vec3 mirrored(const glm::vec3& direction, float roughness) const;

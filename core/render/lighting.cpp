@@ -138,6 +138,7 @@ ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side,
     right_ = glm::vec3(square_to(glm::dvec3(direction), {1.0, 0.01, 0.0}));
     up_ = glm::cross(direction, right_);
     if (focus) {
+        beyond_ = 1;
         levels_.push_back(level_round(focus->box, focus->side));
         draw_focus(list, levels_.back(), focus->has_foliage);
     }
@@ -271,12 +272,20 @@ float ShadowMap::light_at(const glm::vec3& point, const glm::vec3& normal) const
     const float floor_x = std::floor(place.x), floor_y = std::floor(place.y);
     const float part_x = place.x - floor_x, part_y = place.y - floor_y;
     const int column = static_cast<int>(floor_x), row = static_cast<int>(floor_y);
-    const auto lit = [&](int i, int j) {
-        return level->depth_at(i, j) <= place.depth ? 1.0F : 0.0F;
+    const int first = -beyond_, last = 1 + beyond_;
+    // Of the outer rows and columns as much counts as a square of 1 + 2 beyond_ texels round the point has of them.
+    const auto weight = [&](int i, float part) {
+        return i == first ? 1.0F - part : i == last ? part : 1.0F;
     };
-    const float above = lit(column, row) * (1.0F - part_x) + lit(column + 1, row) * part_x;
-    const float below = lit(column, row + 1) * (1.0F - part_x) + lit(column + 1, row + 1) * part_x;
-    return above * (1.0F - part_y) + below * part_y;
+    float sum = 0.0F;
+    for (int j = first; j <= last; ++j) {
+        float of_row = 0.0F;
+        for (int i = first; i <= last; ++i)
+            if (level->depth_at(column + i, row + j) <= place.depth) of_row += weight(i, part_x);
+        sum += of_row * weight(j, part_y);
+    }
+    const auto side = static_cast<float>(1 + 2 * beyond_);
+    return sum / (side * side);
 }
 
 bool ShadowMap::reaches(const glm::vec3& point, const glm::vec3& normal) const {

@@ -80,7 +80,8 @@ class ShadowMap {
     ShadowMap(const DrawList& list, const glm::vec3& direction, int side,
               const std::optional<ShadowFocus>& focus = {});
 
-    /// Returns how much of the light reaches a point, 0..1, interpolated between four depths.
+    /// Returns how much of the light reaches a point, 0..1, interpolated between the nearest depths: four, or sixteen in
+    /// a scene with a focus.
     ///
     /// normal  of the surface at the point; zero for a point on no surface of the scene
     [[nodiscard]] float light_at(const glm::vec3& point, const glm::vec3& normal) const;
@@ -117,6 +118,9 @@ class ShadowMap {
 
     glm::vec3 right_{0.0F}, up_{0.0F}, direction_{0.0F};
     std::vector<Level> levels_;  ///< the finest first
+    /// Texels by which light_at() looks beyond the four round a point. Few lights stand for the sun, so that each of them
+    /// has soft shadows; those of a studio are many.
+    int beyond_ = 0;
 };
 
 /// Returns the shadow maps of lights. Each is a task of its own.

@@ -50,6 +50,11 @@ constexpr float scattered = 0.25F;
 /// often far away.
 constexpr float leaves_hollow = 0.45F, returned_lamps = 0.2F;
 
+/// Part of the light of the sky and of the sun that crowns of trees scatter down to what they shade, and its colour, as
+/// light that passes leaves is greener.
+constexpr float passes_crowns = 0.10F, passes_crowns_of_sun = 0.03F;
+constexpr glm::vec3 below_crowns_tint(0.94F, 1.0F, 0.86F);
+
 /// Returns the part of the light of the surroundings stopped by neighbouring skin of the same colour
 /// that arrives after all: the sum over one, two and more reflections. Hollows in white flesh are
 /// bright, and those in coloured flesh are richer in their colour than its outside.
@@ -150,6 +155,11 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
     const glm::vec3 around = point.ambient.arriving * (bump * point.occlusion);
     const glm::vec3 in_hollows =
         (point.ambient.stopped + point.ambient.arriving * (1.0F - point.occlusion)) * bump;
+    // Not skin beside it alone keeps light from ground and bark in a wood: crowns do, which let some pass.
+    if (lamps.sky && !point.scatters)
+        matt +=
+            below_crowns_tint * (point.ambient.stopped * (bump * point.occlusion * passes_crowns) +
+                                 stopped * passes_crowns_of_sun);
     const glm::vec3 bounced =
         in_hollows * returned_sky(point.base_color) + point.base_color * stopped * returned_lamps;
     matt += around + bounced;
@@ -159,14 +169,16 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
         matt += point.tint * point.transmission * arriving_behind(point, lamps, group, weight);
     }
     const float arriving_share =
-        around.y / std::max(point.ambient.arriving.y + point.ambient.stopped.y, 1e-3F);
+        saturated(around.y / std::max(point.ambient.arriving.y + point.ambient.stopped.y, 1e-3F));
+    // Outdoors what stops the light is seen in the mirror too: it stands where glancing rays go.
+    const float mirrored_share = lamps.sky ? arriving_share * arriving_share : arriving_share;
     const glm::vec3 mirrored_ray =
         normal * (2.0F * glm::dot(normal, point.to_camera)) - point.to_camera;
     const glm::vec3 mirror_image = lamps.sky ? lamps.sky->mirrored(mirrored_ray, point.roughness)
                                              : mirrored_surroundings(mirrored_ray, point.roughness);
     const float mirror = mirrored(seen, point.roughness) + coat_share;
     const glm::vec3 light = point.base_color * matt * (1.0F - coat_share) + shine +
-                            mirror_image * (mirror * saturated(arriving_share)) +
+                            mirror_image * (mirror * mirrored_share) +
                             glm::vec3(look.sheen) * matt * (2.0F * grazing);
     return light + point.base_color * glm::vec3(look.glow) * emission;
 }

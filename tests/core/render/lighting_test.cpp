@@ -190,9 +190,37 @@ TEST(Lighting, AFocusOnTheWholeSceneShadesAsTheSceneDoes) {
     const glm::vec3 direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.2F));
     const ShadowMap plain(list, direction, 128);
     const ShadowMap focused(list, direction, 16, ShadowFocus{list.box, 128});
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-        EXPECT_EQ(plain.light_at(mesh.positions[i], mesh.normals[i]),
-                  focused.light_at(mesh.positions[i], mesh.normals[i]));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        EXPECT_EQ(plain.reaches(mesh.positions[i], mesh.normals[i]),
+                  focused.reaches(mesh.positions[i], mesh.normals[i]));
+        if (glm::dot(mesh.normals[i], direction) > 0.3F) {
+            EXPECT_EQ(focused.light_at(mesh.positions[i], mesh.normals[i]), 1.0F);
+        }
+    }
+}
+
+TEST(Lighting, AShadowInAFocusHasASoftEdgeOfThreeTexels) {
+    const Mesh mesh = plate(0.1F, 0.002F);
+    const GlbScene scene = scene_of(mesh);
+    const DrawList list = draw_list(scene, in_turn);
+    const Bounds focus{{-0.2F, -0.2F, -0.2F}, {0.2F, 0.2F, 0.2F}};
+    const ShadowMap hard(list, {0.0F, 1.0F, 0.0F}, 101),
+        soft(list, {0.0F, 1.0F, 0.0F}, 16, ShadowFocus{focus, 102});
+    // From below the plate to beside it.
+    const auto width_of_edge = [](const ShadowMap& map) {
+        float width = 0.0F, last = 0.0F;
+        for (float x = 0.0F; x < 0.19F; x += 0.0002F) {
+            const float light = map.light_at({x, -0.1F, 0.0F}, {});
+            EXPECT_GE(light, last - 1e-6F);
+            last = light;
+            if (light > 0.0F && light < 1.0F) width += 0.0002F;
+        }
+        EXPECT_EQ(last, 1.0F);
+        return width;
+    };
+    constexpr float texel = 0.4F / 100.0F;
+    EXPECT_LT(width_of_edge(hard), 1.1F * texel);
+    EXPECT_NEAR(width_of_edge(soft), 3.0F * texel, 0.3F * texel);
 }
 
 TEST(Lighting, WhatIsBesideTheFocusIsShadedByTheMapOfTheWhole) {

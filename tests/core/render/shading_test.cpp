@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/render/daylight.h"
 #include "tests/support/solids.h"
 
 namespace sporeprint::render::render_shading_test {
@@ -104,6 +105,39 @@ TEST(Shading, HollowsInBrightFleshAreBrighterThanOneReflectionMakesThem) {
     EXPECT_GT(share(0.95F), 0.9F);
     EXPECT_GT(share(0.5F), share(0.05F) + 0.1F);
     EXPECT_LT(share(0.5F), 0.7F);
+}
+
+TEST(Shading, OutdoorsCrownsLetSomeOfTheLightPassThatTheyStop) {
+    const OpenStudio open;
+    const Sky sky(Daylight{});
+    SurfacePoint point;
+    point.base_color = glm::vec3(0.05F);
+    point.roughness = 1.0F;
+    point.normal = point.smooth_normal = glm::vec3(0, 1, 0);
+    point.to_camera = glm::normalize(glm::vec3(0.3, 0.8, 0.5));
+    point.ambient.stopped = glm::vec3(1.0F);
+    const MaterialLook none;
+    const float inside = reflected(point, none, {{}, {}, 1}, 0).y,
+                outdoors = reflected(point, none, {{}, {}, 1, &sky}, 0).y;
+    // Of a dark surface more than its own hollows return, and far less than an open place has.
+    EXPECT_GT(outdoors, 2.0F * inside);
+    EXPECT_LT(outdoors, 0.2F * point.base_color.y);
+    // Flesh has hollows of its own.
+    point.scatters = true;
+    EXPECT_EQ(reflected(point, none, {{}, {}, 1, &sky}, 0).y,
+              reflected(point, none, {{}, {}, 1}, 0).y);
+}
+
+TEST(Shading, RoughGroundOutdoorsShowsNoSkyAsAMirror) {
+    const Sky sky(Daylight{});
+    const glm::vec3 up = glm::normalize(glm::vec3(0.6F, 0.5F, 0.0F));
+    EXPECT_EQ(sky.mirrored(up, 1.0F), glm::vec3(0.0F));
+    EXPECT_GT(sky.mirrored(up, 0.5F).y, 0.1F);
+    float last = sky.mirrored(up, 0.6F).y;
+    for (float roughness = 0.65F; roughness <= 1.0F; roughness += 0.05F) {
+        EXPECT_LT(sky.mirrored(up, roughness).y, last);
+        last = sky.mirrored(up, roughness).y;
+    }
 }
 
 TEST(Shading, WithoutLightOnlyWhatGlowsIsSeen) {
