@@ -60,6 +60,13 @@ struct FallenLeaves {
         1.0;  ///< of those on top that fell in the last autumn, or in this one once leaves fall again
     double faded = 0.0;  ///< how far those have faded: 0 as they fall to 1 a year later
     double fresh = 0.0;  ///< 1 while they fall, 0 from the winter on
+
+    /// Returns whether a leaf is one of those.
+    ///
+    /// age  which of all leaves, 0 for the last ones that fell to 1
+    [[nodiscard]] bool is_new(double age) const { return age < new_share; }
+    /// Returns how far a leaf has faded.
+    [[nodiscard]] double faded_at(double age) const { return is_new(age) ? faded : 1.0; }
 };
 
 /// Returns the fallen leaves of a day of the northern year. Those of earlier years have faded altogether.

@@ -311,13 +311,12 @@ void FloorPainter::add_mean(const LeafStamp& stamp) {
 
 glm::vec3 FloorPainter::tint_of(double age, bool on_top) const {
     constexpr glm::vec3 faded(0.50F, 0.58F, 0.70F), fresh(1.30F, 1.25F, 1.0F);
-    const bool is_new = age < fallen_.new_share;
-    const double fading = is_new ? fallen_.faded : 1.0;
+    const double fading = fallen_.faded_at(age);
     // Leaves of earlier years lie below those of the last one.
     const double old =
         0.7 * age * age + fading * (0.95 + 0.35 * age) - (on_top ? 0.15 * (1.0 - fading) : 0.0);
     const glm::vec3 tint = glm::mix(glm::vec3(1.0F), faded, unit(static_cast<float>(old)));
-    if (!is_new || !on_top) return tint;
+    if (!fallen_.is_new(age) || !on_top) return tint;
     return tint * glm::mix(glm::vec3(1.0F), fresh, static_cast<float>(fallen_.fresh));
 }
 

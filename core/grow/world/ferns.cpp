@@ -6,12 +6,11 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/grow/world/mesh_copies.h"
+#include "core/grow/world/scattering.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/problems.h"
-#include "core/world/cell_random.h"
 #include "core/world/tree_growth.h"
 
 namespace sporeprint {
@@ -51,13 +50,13 @@ bool is_free(const PlotContent& content, double x, double y) {
         if (east * east + north * north < foot * foot) return false;
     }
     for (const DeadWood& wood : content.dead_wood) {
-        const glm::dvec2 from(metres(wood.at.x), metres(wood.at.y));
+        const bool lies = wood.lies_at(content.time);
+        if (!lies && !wood.stands_at(content.time)) continue;
         const SineCosine turn = sine_cosine(wood.direction);
-        const glm::dvec2 way(turn.cosine, turn.sine), at = glm::dvec2(x, y) - from;
-        const double along = wood.lies_at(content.time)
-                                 ? std::clamp(glm::dot(at, way), 0.0, length_at(wood, content.time))
-                                 : 0.0;
-        if (!wood.lies_at(content.time) && !wood.stands_at(content.time)) continue;
+        const glm::dvec2 way(turn.cosine, turn.sine),
+            at = glm::dvec2(x, y) - glm::dvec2(metres(wood.at.x), metres(wood.at.y));
+        const double along =
+            lies ? std::clamp(glm::dot(at, way), 0.0, length_at(wood, content.time)) : 0.0;
         if (glm::distance(at, along * way) < radius_at(wood, content.time) + beside) return false;
     }
     return true;
@@ -115,36 +114,30 @@ std::vector<std::vector<GlbTransform>> fern_places(const PlotContent& content,
     const FernSeason season = ferns_on(content.northern_day());
     // Snow lays fronds down.
     if (season.unrolled <= 0.0 || content.snow > 0.5) return places;
-    const WorldBox& box = frame.box();
-    const auto cell_of = [](double metres, double side) {
-        return static_cast<int>(std::floor(metres / side));
+    struct Fern {
+        double chance, size, turn;
+        std::uint32_t shape;
     };
-    for (int row = cell_of(box.south, cell); row <= cell_of(box.north, cell); ++row)
-        for (int column = cell_of(box.west, cell); column <= cell_of(box.east, cell); ++column) {
-            Random random(content.seed, purposes::plot_pieces, 45, {column, row});
-            for (int k = 0; k < most_in_cell; ++k) {
-                const double along = random.uniform(), up = random.uniform(),
-                             chance = random.uniform(), size = random.uniform(),
-                             turn = random.uniform();
-                const std::uint32_t shape = random.bits() % fern_shapes;
-                const double x = (column + along) * cell, y = (row + up) * cell;
-                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
-                    y >= box.north - rim)
-                    continue;
-                Random of_patch(content.seed, purposes::plot_pieces, 46,
-                                {cell_of(x, patch), cell_of(y, patch)});
-                const double here = of_patch.uniform();
-                const Cover ground = cover.at(x, y);
-                const double damp = std::min(1.0, 0.6 * ground.moss + 1.5 * ground.herb) *
-                                    (1.0 - ground.grass) * (1.0 - ground.water);
-                // Where they are frequent they stand close together, and elsewhere hardly at all.
-                if (chance >= 0.6 * damp * here * here * here || !is_free(content, x, y)) continue;
-                const double scale = (0.7 + 0.7 * size) * (0.3 + 0.7 * season.unrolled);
-                const SineCosine half = sine_cosine(pi * turn);
-                places[shape].push_back(
-                    {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
-            }
-        }
+    const auto draw = [](Random& random) {
+        const double chance = random.uniform(), size = random.uniform(), turn = random.uniform();
+        return Fern{chance, size, turn, random.bits() % fern_shapes};
+    };
+    for_each_place(
+        content.seed, {cell, most_in_cell, 45}, frame.box(), rim, draw,
+        [&](double x, double y, const Fern& fern) {
+            Random of_patch(content.seed, purposes::plot_pieces, 46,
+                            {cell_of(x, patch), cell_of(y, patch)});
+            const double here = of_patch.uniform();
+            const Cover ground = cover.at(x, y);
+            const double damp = std::min(1.0, 0.6 * ground.moss + 1.5 * ground.herb) *
+                                (1.0 - ground.grass) * (1.0 - ground.water);
+            // Where they are frequent they stand close together, and elsewhere hardly at all.
+            if (fern.chance >= 0.6 * damp * here * here * here || !is_free(content, x, y)) return;
+            const double scale = (0.7 + 0.7 * fern.size) * (0.3 + 0.7 * season.unrolled);
+            const SineCosine half = sine_cosine(pi * fern.turn);
+            places[fern.shape].push_back(
+                {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
+        });
     return places;
 }
 

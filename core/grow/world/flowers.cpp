@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "core/grow/world/scattering.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
-#include "core/world/cell_random.h"
 
 namespace sporeprint {
 
@@ -110,43 +110,38 @@ std::vector<GlbTransform> places_of(const FlowerKind& kind, const PlotContent& c
     const double open = open_on(kind, content.northern_day());
     if (open <= 0.0) return places;
     const auto number = static_cast<int>(&kind - kinds.data());
-    const WorldBox& box = frame.box();
-    const auto cell_of = [](double metres, double side) {
-        return static_cast<int>(std::floor(metres / side));
-    };
     // Where they are most frequent there are twice as many as in the mean.
     constexpr double most = 2.0;
     const int tries = static_cast<int>(std::ceil(most * kind.per_m2 * cell * cell));
-    for (int row = cell_of(box.south, cell); row <= cell_of(box.north, cell); ++row)
-        for (int column = cell_of(box.west, cell); column <= cell_of(box.east, cell); ++column) {
-            Random random(content.seed, purposes::plot_pieces,
-                          static_cast<std::uint32_t>(5 + number), {column, row});
-            for (int k = 0; k < tries; ++k) {
-                const double along = random.uniform(), up = random.uniform(),
-                             chance = random.uniform(), size = random.uniform(),
-                             turn = random.uniform(), lean = random.uniform();
-                const double x = (column + along) * cell, y = (row + up) * cell;
-                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
-                    y >= box.north - rim)
-                    continue;
-                Random of_patch(content.seed, purposes::plot_pieces,
-                                static_cast<std::uint32_t>(25 + number),
-                                {cell_of(x, patch), cell_of(y, patch)});
-                const double here = of_patch.uniform();
-                const Cover ground = cover.at(x, y);
-                const double liked = kind.in_woods ? ground.all_leaves() * (1.0 - content.acidity)
-                                                   : ground.grass * ground.grass;
-                const double wanted = open * liked * here * most * kind.per_m2 * cell * cell;
-                if (chance * tries >= wanted) continue;
-                const double scale = 0.75 + 0.5 * size;
-                const SineCosine half = sine_cosine(pi * turn), tilt = sine_cosine(0.15 * lean);
-                // Turned about the vertical axis, then leaning.
-                places.push_back({frame.on_floor(x, y),
-                                  {tilt.sine * half.cosine, half.sine * tilt.cosine,
-                                   -tilt.sine * half.sine, half.cosine * tilt.cosine},
-                                  glm::dvec3(scale)});
-            }
-        }
+    struct Flower {
+        double chance, size, turn, lean;
+    };
+    const auto draw = [](Random& random) {
+        const double chance = random.uniform(), size = random.uniform(), turn = random.uniform(),
+                     lean = random.uniform();
+        return Flower{chance, size, turn, lean};
+    };
+    for_each_place(content.seed, {cell, tries, static_cast<std::uint32_t>(5 + number)}, frame.box(),
+                   rim, draw, [&](double x, double y, const Flower& flower) {
+                       Random of_patch(content.seed, purposes::plot_pieces,
+                                       static_cast<std::uint32_t>(25 + number),
+                                       {cell_of(x, patch), cell_of(y, patch)});
+                       const double here = of_patch.uniform();
+                       const Cover ground = cover.at(x, y);
+                       const double liked = kind.in_woods
+                                                ? ground.all_leaves() * (1.0 - content.acidity)
+                                                : ground.grass * ground.grass;
+                       const double wanted = open * liked * here * most * kind.per_m2 * cell * cell;
+                       if (flower.chance * tries >= wanted) return;
+                       const double scale = 0.75 + 0.5 * flower.size;
+                       const SineCosine half = sine_cosine(pi * flower.turn),
+                                        tilt = sine_cosine(0.15 * flower.lean);
+                       // Turned about the vertical axis, then leaning.
+                       places.push_back({frame.on_floor(x, y),
+                                         {tilt.sine * half.cosine, half.sine * tilt.cosine,
+                                          -tilt.sine * half.sine, half.cosine * tilt.cosine},
+                                         glm::dvec3(scale)});
+                   });
     return places;
 }
 

@@ -315,8 +315,7 @@ std::vector<PlotLeaves> leaves_of(const PlotContent& content, const PlotFrame& f
                 // A leaf that leans has one side on the ground.
                 const double reach = 0.3 * scale * leaves[kind].leaf.shape.length;
                 const double bright = 0.7 + 0.3 * hue,
-                             faded = age < fallen.new_share ? fallen.faded : 1.0,
-                             old = std::min(1.0, 0.45 * age * age + 0.75 * faded);
+                             old = std::min(1.0, 0.45 * age * age + 0.75 * fallen.faded_at(age));
                 // Lower faces are paler, and duller on the ground than on the tree.
                 const glm::dvec3 tint =
                     (sign < 0.0 ? 0.62 : 1.0) * bright *

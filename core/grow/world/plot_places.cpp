@@ -214,8 +214,7 @@ std::optional<TrunkLine> line_of_log(const DeadWood& wood, const PlotContent& co
     if (to - from < least_length) return std::nullopt;
     // The whole trunk, so that a part of it lies as the others do.
     const LyingTrunk lying(frame.floor(), wood, content.time);
-    std::vector<TrunkPart> parts = lying.parts(from, to);
-    return TrunkLine{from, to, whole, std::move(parts), [=, &frame](double s) {
+    return TrunkLine{from, to, whole, lying.parts(from, to), [=, &frame](double s) {
                          const LyingTrunk::Axis axis = lying.at(s);
                          return TrunkSection{frame.at(axis.at.x, axis.at.y, axis.height),
                                              radius * taper_at(wood, s)};
@@ -294,16 +293,13 @@ std::vector<Contact> contacts_on(const PlotContent& content, const PlotFrame& fr
         const double diameter = trunk_diameter(height_at(tree, content.time));
         if (diameter > 0.0) contacts.push_back({at, at, 0.5 * foot_radii * diameter});
     }
-    const auto place_of_section = [&](const TrunkSection& section) {
-        const glm::dvec3 at = section.middle + frame.origin();
-        return glm::dvec2(at.x, -at.z);
-    };
     for (const DeadWood& wood : content.dead_wood) {
         const std::optional<TrunkLine> line = trunk_line(wood, content, frame);
         if (!line) continue;
         if (!wood.lies_at(content.time)) {
             const TrunkSection foot = line->section(0.0);
-            contacts.push_back({place_of_section(foot), place_of_section(foot), foot.radius});
+            const glm::dvec2 at = frame.below(foot.middle);
+            contacts.push_back({at, at, foot.radius});
             continue;
         }
         for (const TrunkPart& part : line->parts) {
@@ -314,7 +310,7 @@ std::vector<Contact> contacts_on(const PlotContent& content, const PlotFrame& fr
             };
             for (double i = 0.0; i < steps; i += 1.0) {
                 const TrunkSection from = section_at(i), to = section_at(i + 1.0);
-                const glm::dvec2 start = place_of_section(from), end = place_of_section(to);
+                const glm::dvec2 start = frame.below(from.middle), end = frame.below(to.middle);
                 const glm::dvec2 middle = 0.5 * (start + end);
                 const double radius = 0.5 * (from.radius + to.radius),
                              below = 0.5 * (from.middle.y + to.middle.y) + frame.height() - radius;

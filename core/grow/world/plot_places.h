@@ -30,6 +30,10 @@ class PlotFrame {
     [[nodiscard]] glm::dvec3 on_floor(double x, double y) const {
         return at(x, y, floor_->at(x, y));
     }
+    /// Returns the place of the world below a place of a file, metres to the east and to the north.
+    [[nodiscard]] glm::dvec2 below(const glm::dvec3& place) const {
+        return {x_ + place.x, y_ - place.z};
+    }
     /// Returns the height of what is at y = 0, metres.
     [[nodiscard]] double height() const { return height_; }
     /// Returns the origin of the file in the world: metres to the east, up, and to the south.

@@ -454,8 +454,7 @@ class Scenery {
         for (PlotLeaves& own :
              ferns_of(content, frame, cover_on(middle_, content), least_fern_lod, atlas_)) {
             std::erase_if(own.places, [&](const GlbTransform& place) {
-                const glm::dvec2 at(frame.origin().x + place.translation.x,
-                                    -frame.origin().z - place.translation.z);
+                const glm::dvec2 at = frame.below(place.translation);
                 const double away = glm::distance(at, eye());
                 // One at the camera would hide everything.
                 return away < least_to_fern || away > ferns_within ||
@@ -486,8 +485,7 @@ class Scenery {
             MeshCopies tufts;
             tufts.one = tuft_mesh(shape, grass_on(plot_.northern_day()));
             for (const GlbTransform& place : all[shape]) {
-                const glm::dvec2 at(frame.origin().x + place.translation.x,
-                                    -frame.origin().z - place.translation.z);
+                const glm::dvec2 at = frame.below(place.translation);
                 if (but && at.x > but->west && at.x < but->east && at.y > but->south &&
                     at.y < but->north)
                     continue;

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/grow/world/mesh_copies.h"
+#include "core/grow/world/scattering.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
-#include "core/world/cell_random.h"
 
 namespace sporeprint {
 
@@ -74,30 +74,26 @@ Mesh tuft_mesh(std::size_t shape, const GrassSeason& season) {
 std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content, const PlotFrame& frame,
                                                 const CoverField& cover, int per_cell, double rim) {
     std::vector<std::vector<GlbTransform>> places(tuft_shapes);
-    const WorldBox& box = frame.box();
-    const auto cell_of = [](double metres) { return static_cast<int>(std::floor(metres / cell)); };
-    for (int row = cell_of(box.south); row <= cell_of(box.north); ++row)
-        for (int column = cell_of(box.west); column <= cell_of(box.east); ++column) {
-            Random random(content.seed, purposes::plot_pieces, 4, {column, row});
-            for (int k = 0; k < per_cell; ++k) {
-                const double along = random.uniform(), up = random.uniform(),
-                             chance = random.uniform(), size = random.uniform(),
-                             turn = random.uniform();
-                const std::size_t shape = random.bits() % tuft_shapes;
-                const double x = (column + along) * cell, y = (row + up) * cell;
-                if (x < box.west + rim || x >= box.east - rim || y < box.south + rim ||
-                    y >= box.north - rim)
-                    continue;
-                const double grass = cover.at(x, y).grass;
-                if (chance >= grass * grass) continue;
-                // The lower half of a tuft is below the snow.
-                const double scale =
-                    (0.4 + 1.2 * size) * (0.4 + 0.6 * grass) * (1.0 - 0.5 * content.snow);
-                const SineCosine half = sine_cosine(pi * turn);
-                places[shape].push_back(
-                    {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
-            }
-        }
+    struct Tuft {
+        double chance, size, turn;
+        std::size_t shape;
+    };
+    const auto draw = [](Random& random) {
+        const double chance = random.uniform(), size = random.uniform(), turn = random.uniform();
+        return Tuft{chance, size, turn, random.bits() % tuft_shapes};
+    };
+    for_each_place(
+        content.seed, {cell, per_cell, 4}, frame.box(), rim, draw,
+        [&](double x, double y, const Tuft& tuft) {
+            const double grass = cover.at(x, y).grass;
+            if (tuft.chance >= grass * grass) return;
+            // The lower half of a tuft is below the snow.
+            const double scale =
+                (0.4 + 1.2 * tuft.size) * (0.4 + 0.6 * grass) * (1.0 - 0.5 * content.snow);
+            const SineCosine half = sine_cosine(pi * tuft.turn);
+            places[tuft.shape].push_back(
+                {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
+        });
     return places;
 }
 
