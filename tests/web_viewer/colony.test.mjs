@@ -3,7 +3,14 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    launchBrowser,
+    logEvents,
+    parameters,
+    ready,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
 let browser;
@@ -37,7 +44,6 @@ async function open(t, query, viewport = undefined) {
 }
 
 const small = "lod=2&texture_size=128";
-const parameters = (page) => Object.fromEntries(new URL(page.url()).searchParams);
 const counts = (page) => page.evaluate(() => window.sporeprint.counts);
 const row = (page, name) => page.locator(`form .control[data-name="${name}"]`);
 const number = (page, name) => page.locator(`input[type=number][name="${name}"]`);
@@ -104,7 +110,7 @@ test("parameters of other habits are hidden, and a refusal is beside its control
     await page.locator('select[name="habit"]').selectOption("rooted");
     await ready(page);
     assert.equal(await row(page, "depth").isVisible(), true);
-    assert.equal(parameters(page).habit, "rooted");
+    assert.equal((await parameters(page)).get("habit"), "rooted");
     expectNoProblems(log);
     await number(page, "depth").fill("9");
     await number(page, "depth").press("Enter");
@@ -124,7 +130,7 @@ test("parameters of other habits are hidden, and a refusal is beside its control
     await ready(page);
     assert.equal(await page.locator('select[name="habit"]').inputValue(), "tier");
     assert.equal(await row(page, "trunk_radius").isVisible(), true);
-    assert.deepEqual(parameters(page), {
+    assert.deepEqual(Object.fromEntries(await parameters(page)), {
         colony: "trametes_versicolor",
         lod: "2",
         texture_size: "128",
@@ -170,7 +176,7 @@ test("the links carry a mix from the morph editor to its colony and back", async
     await page.waitForURL(/colony=/);
     await ready(page);
     const mix = "amanita_muscaria:0.5,mycena_sanguinolenta:0.5";
-    assert.equal(parameters(page).colony, mix);
+    assert.equal((await parameters(page)).get("colony"), mix);
     assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 2);
     assert.match(await page.locator("#common-name").textContent(), / × /);
     assert.equal(await page.locator("#mode-morph").getAttribute("href"), `?morph=${mix}`);
@@ -239,7 +245,7 @@ test("the downloaded file equals that of the copied URL and restores its setting
         .setInputFiles({ name: "ring.glb", mimeType: "model/gltf-binary", buffer: saved });
     await page.waitForURL(/colony=russula/);
     await ready(page);
-    assert.deepEqual(parameters(page), {
+    assert.deepEqual(Object.fromEntries(await parameters(page)), {
         colony: "russula_vinosa",
         seed: "3",
         habit: "ring",
@@ -256,7 +262,7 @@ test("the number of individuals is shown after the count was changed by keys", a
     await slider.focus();
     for (let i = 0; i < 3; ++i) await slider.press("ArrowLeft");
     await ready(page);
-    assert.equal(parameters(page).count, "21");
+    assert.equal((await parameters(page)).get("count"), "21");
     assert.equal((await page.evaluate(() => window.sporeprint.made)).requested, 21);
     expectNoProblems(log);
 });

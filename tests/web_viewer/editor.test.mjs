@@ -8,6 +8,7 @@ import {
     launchBrowser,
     logEvents,
     packages,
+    parameters,
     ready,
     screenshotFolder,
     serverUrl,
@@ -54,10 +55,9 @@ function expectNoProblems(log) {
     assert.deepEqual(log.failed, []);
 }
 
-const parameters = (page) => new URL(page.url()).searchParams;
-const shares = (page) =>
+const shares = async (page) =>
     Object.fromEntries(
-        parameters(page)
+        (await parameters(page))
             .get("morph")
             .split(",")
             .map((part) => {
@@ -100,9 +100,9 @@ test("the morph editor opens with two species, accepts up to five, and can be le
     await page.locator("#mode-morph").click();
     await ready(page);
     assert.equal(await page.locator("#mode-morph").getAttribute("aria-current"), "page");
-    assert.equal(Object.keys(shares(page)).length, 2);
+    assert.equal(Object.keys(await shares(page)).length, 2);
     assert.ok(await page.locator("#morph-t").isVisible());
-    const [joined] = Object.keys(shares(page)).filter((id) => id !== a);
+    const [joined] = Object.keys(await shares(page)).filter((id) => id !== a);
     const chosen = [b, c, d, e].find((id) => id !== joined);
     // What has joined by itself is said where everybody sees it, and gives way to what is chosen.
     const notice = page.locator("#notice");
@@ -110,34 +110,42 @@ test("the morph editor opens with two species, accepts up to five, and can be le
     assert.ok(await notice.isVisible());
     await page.screenshot({ path: path.join(folder, "notice.png") });
     await page.locator(`#gallery button[data-species="${chosen}"]`).click();
-    assert.deepEqual(shares(page), { [a]: 0.5, [chosen]: 0.5 });
+    assert.deepEqual(await shares(page), { [a]: 0.5, [chosen]: 0.5 });
     for (const id of [b, c, d, e]) {
         const button = page.locator(`#gallery button[data-species="${id}"]`);
         if ((await button.getAttribute("aria-pressed")) === "false") await button.click();
     }
     await ready(page);
-    assert.deepEqual(shares(page), Object.fromEntries([a, b, c, d, e].map((id) => [id, 0.2])));
+    assert.deepEqual(
+        await shares(page),
+        Object.fromEntries([a, b, c, d, e].map((id) => [id, 0.2])),
+    );
     assert.equal(await page.locator(".pad .corner").count(), 5);
     assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 5);
     const sixth = species.find(({ id }) => ![a, b, c, d, e].includes(id));
     await page.locator(`#gallery button[data-species="${sixth.id}"]`).click();
     assert.match(await page.locator("#status").textContent(), /at most 5/);
-    assert.equal(Object.keys(shares(page)).length, 5);
+    assert.equal(Object.keys(await shares(page)).length, 5);
     await page.screenshot({ path: path.join(folder, "editor.png") });
-    assert.equal(parameters(page).get("seed"), "3", "the other settings stay");
+    assert.equal((await parameters(page)).get("seed"), "3", "the other settings stay");
     await page.goBack();
     await ready(page);
-    assert.equal(Object.keys(shares(page)).length, 4);
+    assert.equal(Object.keys(await shares(page)).length, 4);
     await page.locator("#mode-species").click();
     await ready(page);
-    assert.ok(parameters(page).has("species") && (await page.locator("#editor").isHidden()));
+    assert.ok(
+        (await parameters(page)).has("species") && (await page.locator("#editor").isHidden()),
+    );
     // Of two, taking one off leaves the other one alone.
     await page.goBack();
     await ready(page);
-    for (const id of Object.keys(shares(page)).filter((id) => id !== c))
-        await page.locator("#members li", { has: page.locator(`[data-share="${id}"]`) }).locator(".off").click();
+    for (const id of Object.keys(await shares(page)).filter((id) => id !== c))
+        await page
+            .locator("#members li", { has: page.locator(`[data-share="${id}"]`) })
+            .locator(".off")
+            .click();
     await ready(page);
-    assert.equal(parameters(page).get("species"), c);
+    assert.equal((await parameters(page)).get("species"), c);
     assert.ok(await page.locator("#editor").isHidden());
     expectNoProblems(log);
 });
@@ -159,7 +167,7 @@ test("dragging the weight point requests drafts, and the final model when releas
         drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"),
     );
     await ready(page);
-    const weights = shares(page);
+    const weights = await shares(page);
     assert.ok(weights[b] > 0.35 && weights[b] < 0.95, JSON.stringify(weights));
     assert.ok(Math.abs(Object.values(weights).reduce((sum, weight) => sum + weight, 0) - 1) < 1e-9);
     assert.equal(new URL(models(log).at(-1)).search, "", "the whole model as it is by default");
@@ -168,11 +176,11 @@ test("dragging the weight point requests drafts, and the final model when releas
 
     await drag(page, half, { x: corner.x + 3, y: corner.y - 2 });
     await ready(page);
-    assert.equal(shares(page)[b], 1);
+    assert.equal((await shares(page))[b], 1);
     assert.equal(new URL(models(log).at(-1)).pathname, `/v1/mushrooms/${b}.glb`);
     await page.goBack();
     await ready(page);
-    assert.deepEqual(shares(page), weights, "one step back per drag");
+    assert.deepEqual(await shares(page), weights, "one step back per drag");
     expectNoProblems(log);
 });
 
@@ -257,14 +265,14 @@ test("own arcs between two outlines can be added, dragged, undone and reset", as
     await page.locator("#graph-tools button", { hasText: "Add arc" }).click();
     await ready(page);
     assert.deepEqual(await arcs(page), ["accepted"]);
-    const first = parameters(page).get("arcs");
+    const first = (await parameters(page)).get("arcs");
     assert.match(first, /^cap:0\.\d+:0\.\d+$/);
     assert.match(models(log).at(-1), new RegExp(`/v1/morphs/${a}/${b}.glb$`));
 
     const end = await centre(page.locator('.drawing [data-index="0"] [data-side="b"] .knob'));
     await drag(page, end, { x: end.x - 30, y: end.y + 8 });
     await ready(page);
-    const dragged = parameters(page).get("arcs");
+    const dragged = (await parameters(page)).get("arcs");
     assert.notEqual(dragged, first);
     assert.equal(dragged.split(":")[1], first.split(":")[1], "the other end stays");
     assert.deepEqual(await arcs(page), ["accepted"]);
@@ -272,14 +280,14 @@ test("own arcs between two outlines can be added, dragged, undone and reset", as
     const undo = page.getByRole("button", { name: "Undo" });
     await undo.click();
     await ready(page);
-    assert.equal(parameters(page).get("arcs"), first);
+    assert.equal((await parameters(page)).get("arcs"), first);
     await undo.click();
     await ready(page);
-    assert.equal(parameters(page).get("arcs"), null);
+    assert.equal((await parameters(page)).get("arcs"), null);
     assert.ok(await undo.isDisabled());
     for (let step = 0; step < 2; ++step) await page.getByRole("button", { name: "Redo" }).click();
     await ready(page);
-    assert.equal(parameters(page).get("arcs"), dragged);
+    assert.equal((await parameters(page)).get("arcs"), dragged);
 
     // A double click on an outline adds an arc there.
     const place = await page
@@ -296,7 +304,7 @@ test("own arcs between two outlines can be added, dragged, undone and reset", as
     await page.locator("#graph-tools button", { hasText: "Reset" }).click();
     await ready(page);
     assert.deepEqual(await arcs(page), []);
-    assert.equal(parameters(page).get("arcs"), null);
+    assert.equal((await parameters(page)).get("arcs"), null);
     expectNoProblems(log);
 });
 
@@ -320,7 +328,7 @@ test("a crossing arc is refused with the service's message, and the mushroom sta
         headers: { "Content-Type": "application/json" },
         body: JSON.stringify({
             t: 0.4,
-            arcs: parameters(page)
+            arcs: (await parameters(page))
                 .get("arcs")
                 .split(",")
                 .map((arc) => {
@@ -373,7 +381,7 @@ test("the morph editor can be used by keyboard alone", async (t) => {
     await page.locator("#morph-t").focus();
     await press("ArrowRight", 5);
     await ready(page);
-    assert.equal(Object.values(shares(page))[1], 0.55);
+    assert.equal(Object.values(await shares(page))[1], 0.55);
 
     // To the graph, an arc, its end; every stop has a focus ring or a thick knob.
     const reach = async (matches) => {
@@ -399,34 +407,35 @@ test("the morph editor can be used by keyboard alone", async (t) => {
         label: document.activeElement.getAttribute("aria-label"),
     }));
     assert.match(label, /^Arc 1, cap, end on Fly agaric$/);
-    const start = parameters(page).get("arcs");
+    const start = (await parameters(page)).get("arcs");
     await press("ArrowUp", 3);
     await ready(page);
-    assert.notEqual(parameters(page).get("arcs"), start);
+    assert.notEqual((await parameters(page)).get("arcs"), start);
     await press("Control+z");
     await ready(page);
     await press("Delete");
     await ready(page);
-    assert.equal(parameters(page).get("arcs"), null);
+    assert.equal((await parameters(page)).get("arcs"), null);
 
     // A third species by keyboard: the polygon, its point, corners by digits.
     await page.locator(`#gallery button[data-species="${c}"]`).focus();
     await press("Enter");
     await ready(page);
     await page.locator("#weight-point").focus();
-    const middle = shares(page);
+    const middle = await shares(page);
     await press("ArrowUp", 4);
     await ready(page);
-    assert.ok(Object.values(shares(page))[0] > Object.values(middle)[0]);
+    assert.ok(Object.values(await shares(page))[0] > Object.values(middle)[0]);
     await press("3");
     await ready(page);
-    assert.equal(Object.values(shares(page))[2], 1);
+    assert.equal(Object.values(await shares(page))[2], 1);
     await press("ArrowUp");
     await ready(page);
-    assert.ok(Object.values(shares(page))[2] < 1, "a key leaves a corner again");
+    assert.ok(Object.values(await shares(page))[2] < 1, "a key leaves a corner again");
     await press("Home");
     await ready(page);
-    for (const weight of Object.values(shares(page))) assert.ok(Math.abs(weight - 1 / 3) < 0.002);
+    for (const weight of Object.values(await shares(page)))
+        assert.ok(Math.abs(weight - 1 / 3) < 0.002);
     expectNoProblems(log);
 });
 
@@ -465,11 +474,11 @@ test("a share can be typed, and one click makes it the only one", async (t) => {
     await page.locator(`[data-share="${a}"]`).fill("75");
     await page.locator(`[data-share="${a}"]`).press("Enter");
     await ready(page);
-    assert.equal(shares(page)[a], 0.75);
-    assert.ok(Math.abs(shares(page)[b] / shares(page)[c] - 1.5) < 0.02);
+    assert.equal((await shares(page))[a], 0.75);
+    assert.ok(Math.abs((await shares(page))[b] / (await shares(page))[c] - 1.5) < 0.02);
     await page.locator('#members [data-member="2"] .letter').click();
     await ready(page);
-    assert.equal(shares(page)[c], 1);
+    assert.equal((await shares(page))[c], 1);
     expectNoProblems(log);
 });
 
@@ -484,7 +493,7 @@ test(
         await galleryComplete(page);
         await page.locator("#variety").click();
         await page.evaluate(() => window.sporeprint.ready());
-        assert.equal(parameters(page).get("sheet"), "variety");
+        assert.equal((await parameters(page)).get("sheet"), "variety");
         assert.match(await page.locator("#sheet-state").textContent(), /^25 mushrooms/);
         await page.screenshot({ path: path.join(folder, "editor-sheet.png") });
         const [picture] = await Promise.all([

@@ -6,6 +6,7 @@ import {
     galleryComplete,
     launchBrowser,
     logEvents,
+    parameters,
     ready,
     screenshotFolder,
     serverUrl,
@@ -41,9 +42,7 @@ const clips = (log) =>
         .filter((url) => /\.glb\?.*animation=growth/.test(url))
         .map((url) => new URL(url).searchParams);
 /** Returns the query of the last requested model. */
-const lastModel = (log) =>
-    new URL(log.requests.findLast((url) => /\.glb/.test(url))).searchParams;
-const parameters = (page) => new URL(page.url()).searchParams;
+const lastModel = (log) => new URL(log.requests.findLast((url) => /\.glb/.test(url))).searchParams;
 const picture = (page) => page.locator("#stage").screenshot();
 
 function expectNoProblems(log) {
@@ -96,7 +95,7 @@ test("play requests a clip at LOD 1, and stopping requests the model of the age"
     assert.ok(!seen.search.includes("age="), "playing changes no setting");
     assert.equal(seen.after.playing, false);
     await ready(page);
-    const age = Number(parameters(page).get("age"));
+    const age = Number((await parameters(page)).get("age"));
     assert.ok(Math.abs(age - seen.ages.at(-1)) < 0.01, `stayed at ${age}`);
     assert.equal((await growth(page)).age, undefined, "the still mushroom stands there again");
     assert.deepEqual(
@@ -137,7 +136,7 @@ test("a clip lasts eight seconds, and then the mushroom of the settings is shown
     assert.equal((await growth(page)).age, undefined);
     assert.equal(await page.evaluate(() => window.sporeprint.counts.vertices), before_);
     assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), "0.6");
-    assert.equal(parameters(page).get("age"), null);
+    assert.equal((await parameters(page)).get("age"), null);
     expectNoProblems(log);
 });
 
@@ -179,7 +178,7 @@ test("the number of frames is neither shown nor sent without a clip", async (t) 
     await page.locator('select[name="animation"]').selectOption("none");
     await ready(page);
     assert.equal(await page.locator('.control[data-name="frames"]').isVisible(), false);
-    assert.equal(parameters(page).get("frames"), null);
+    assert.equal((await parameters(page)).get("frames"), null);
     assert.equal(lastModel(log).get("frames"), null);
     expectNoProblems(log);
 });
@@ -196,7 +195,7 @@ test("with reduced motion the clip is moved by the slider only", async (t) => {
     assert.equal((await growth(page)).age, 0);
     await page.screenshot({ path: path.join(folder, "growth-by-hand.png") });
     await ready(page);
-    assert.equal(parameters(page).get("age"), "0");
+    assert.equal((await parameters(page)).get("age"), "0");
     expectNoProblems(log);
 });
 

@@ -3,7 +3,14 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    launchBrowser,
+    logEvents,
+    parameters,
+    ready,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
 let browser;
@@ -32,8 +39,6 @@ async function open(t, query) {
         .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, log };
 }
-
-const parameters = (page) => Object.fromEntries(new URL(page.url()).searchParams);
 
 function expectNoProblems(log) {
     assert.deepEqual(log.console, []);
@@ -81,7 +86,11 @@ test("a changed parameter is requested, in the address, and dropped with the pre
     await nodes.fill("14");
     await nodes.press("Enter");
     await ready(page);
-    assert.deepEqual(parameters(page), { leaf: "birch", seed: "7", "venation.nodes": "14" });
+    assert.deepEqual(Object.fromEntries(await parameters(page)), {
+        leaf: "birch",
+        seed: "7",
+        "venation.nodes": "14",
+    });
     assert.notEqual(await page.evaluate(() => window.sporeprint.counts.triangles), before);
     const colour = page.locator('input[type=color][name="summer.inner"]');
     await colour.evaluate((entry) => {
@@ -90,7 +99,7 @@ test("a changed parameter is requested, in the address, and dropped with the pre
         entry.dispatchEvent(new Event("change", { bubbles: true }));
     });
     await ready(page);
-    assert.equal(parameters(page)["summer.inner"], "#aa2211");
+    assert.equal((await parameters(page)).get("summer.inner"), "#aa2211");
     assert.ok(
         log.requests.some((url) =>
             /\/v1\/leaves\/birch\.glb\?seed=7&venation\.nodes=14&summer\.inner=%23aa2211$/.test(
@@ -101,10 +110,10 @@ test("a changed parameter is requested, in the address, and dropped with the pre
     );
     await page.locator('#gallery button[data-species="ivy"]').click();
     await ready(page);
-    assert.deepEqual(parameters(page), { leaf: "ivy", seed: "7" });
+    assert.deepEqual(Object.fromEntries(await parameters(page)), { leaf: "ivy", seed: "7" });
     await page.goBack();
     await ready(page);
-    assert.equal(parameters(page).leaf, "birch");
+    assert.equal((await parameters(page)).get("leaf"), "birch");
     assert.equal(await nodes.inputValue(), "14");
     expectNoProblems(log);
 });
@@ -146,7 +155,11 @@ test("the downloaded file equals that of the address and restores its settings",
         .setInputFiles({ name: "oak.glb", mimeType: "model/gltf-binary", buffer: saved });
     await page.waitForURL(/leaf=oak/);
     await ready(page);
-    assert.deepEqual(parameters(page), { leaf: "oak", autumn: "0.5", lod: "2" });
+    assert.deepEqual(Object.fromEntries(await parameters(page)), {
+        leaf: "oak",
+        autumn: "0.5",
+        lod: "2",
+    });
     // The gallery of the page before was still loading: console messages about that are ignored.
     assert.deepEqual(log.failed, []);
 });

@@ -5,6 +5,7 @@ import { createHash } from "node:crypto";
 import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
 import {
+    addressOf,
     galleryComplete,
     launchBrowser,
     logEvents,
@@ -77,7 +78,7 @@ async function tabTo(page, id) {
 
 test("a picture becomes a published species and its address, by keyboard alone", async () => {
     const { page, log } = await open();
-    assert.equal(new URL(page.url()).hash, "", "the token does not stay in the address");
+    assert.equal((await addressOf(page)).hash, "", "the token does not stay in the address");
     await page.locator("#tab-library").waitFor();
     await tabTo(page, "tab-found");
     await page.keyboard.press("ArrowLeft");
@@ -135,7 +136,7 @@ test("of two writers of a draft the later one chooses, and nothing is lost", asy
 test("species of the library are listed and opened again; a wrong token is named", async () => {
     // Of a link whose end was lost nothing stays in the address.
     const { page } = await open("#token=spk_abcdefgh_AAA");
-    assert.equal(page.url(), `${base}/editor`);
+    assert.equal((await addressOf(page)).href, `${base}/editor`);
     await page.locator("#tab-library").click();
     await page.locator("#library-error", { hasText: "a token is spk_" }).waitFor();
     await page.locator("#token").fill("spk_");
@@ -172,7 +173,7 @@ test("the viewer shows what is published: by address, in the gallery and in mixe
     const log = logEvents(page);
     await page.goto(`${base}/?species=~me.cep_in_lists&lod=3&textures=none`);
     await ready(page);
-    assert.equal(new URL(page.url()).searchParams.get("species"), "~me.cep_in_lists@1");
+    assert.equal((await addressOf(page)).searchParams.get("species"), "~me.cep_in_lists@1");
     assert.equal(await page.locator("#common-name").textContent(), "Own cep_in_lists");
     await galleryComplete(page);
     const own = page.locator("#gallery [data-species='~me.cep_in_lists@1']");
@@ -184,7 +185,8 @@ test("the viewer shows what is published: by address, in the gallery and in mixe
     await page.locator("#mode-morph").click();
     await page.locator("#gallery [data-species='russula_vinosa']").click();
     await ready(page);
-    assert.match(new URL(page.url()).searchParams.get("morph"), /^~me\.cep_in_lists@1:0\.5,russula_vinosa:0\.5$/);
+    const morph = (await addressOf(page)).searchParams.get("morph");
+    assert.match(morph, /^~me\.cep_in_lists@1:0\.5,russula_vinosa:0\.5$/);
     await page.goto(`${base}/?species=russula_vinosa:0.5,~me.cep_in_lists@1:0.5&lod=3&textures=none`);
     await ready(page);
     assert.equal(await page.locator("#common-name").textContent(), "Darkening brittlegill × Own cep_in_lists");
@@ -262,7 +264,7 @@ test("own species are renamed, taken out of lists, shared, saved as files and de
     reader.setDefaultTimeout(patience);
     await reader.goto(link);
     await reader.locator("#found-numbers", { hasText: "from the file of a species" }).waitFor({ timeout: patience });
-    assert.equal(new URL(reader.url()).hash, "", "the key does not stay in the address");
+    assert.equal((await addressOf(reader)).hash, "", "the key does not stay in the address");
     await item.locator("[data-action=revoke]").click();
     await item.locator(".links li").waitFor({ state: "detached" });
     await reader.goto("about:blank");

@@ -4,9 +4,11 @@ import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import {
+    addressOf,
     galleryComplete,
     launchBrowser,
     logEvents,
+    parameters,
     ready,
     reload,
     screenshotFolder,
@@ -44,10 +46,8 @@ async function open(t, query = "", viewport = undefined, from = base) {
 }
 
 const stagePicture = (page) => page.locator("#stage").screenshot();
-const parameters = (page) => new URL(page.url()).searchParams;
 /** Returns the requested models. */
-const models = (log) =>
-    log.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url));
+const models = (log) => log.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url));
 const slider = (page, name) => page.locator(`input[type=range][name="${name}"]`);
 
 /** Returns the number of different colours in a picture: an empty stage has only those of a
@@ -133,7 +133,7 @@ test("a dragged slider requests drafts and the final model and writes the addres
     );
     await page.mouse.up();
     await ready(page);
-    const age = Number(parameters(page).get("age"));
+    const age = Number((await parameters(page)).get("age"));
     assert.ok(age > 0.05 && age < 0.45, `age is ${age}`);
     assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), String(age));
     const last = new URL(models(log).at(-1)).searchParams;
@@ -143,11 +143,11 @@ test("a dragged slider requests drafts and the final model and writes the addres
 
     await page.goBack();
     await ready(page);
-    assert.equal(parameters(page).get("age"), null, "one step back undoes the drag");
+    assert.equal((await parameters(page)).get("age"), null, "one step back undoes the drag");
     assert.equal(await slider(page, "age").inputValue(), "0.6");
     await page.goForward();
     await ready(page);
-    assert.equal(Number(parameters(page).get("age")), age);
+    assert.equal(Number((await parameters(page)).get("age")), age);
     expectNoProblems(log);
 });
 
@@ -280,11 +280,11 @@ test("a value of the species' own is sent only while it is changed", async (t) =
             : "ArrowRight",
     );
     await ready(page);
-    assert.ok(parameters(page).has(name));
+    assert.ok((await parameters(page)).has(name));
     assert.ok(new URL(models(log).at(-1)).searchParams.has(name));
     await page.locator(`.control[data-name="${name}"] .reset`).click();
     await ready(page);
-    assert.ok(!parameters(page).has(name));
+    assert.ok(!(await parameters(page)).has(name));
     assert.equal(await slider(page, name).inputValue(), own);
     expectNoProblems(log);
 });
@@ -316,7 +316,7 @@ test("a dropped GLB restores its settings", async (t) => {
     await drop(page, bytes, "found.glb");
     await page.waitForFunction((wanted) => location.search.includes(wanted), id);
     await ready(page);
-    assert.deepEqual([...parameters(page)].sort(), [
+    assert.deepEqual([...(await parameters(page))].sort(), [
         ["age", "0.35"],
         ["seed", "42"],
         ["species", id],
@@ -332,11 +332,11 @@ test("a dropped GLB restores its settings", async (t) => {
 
 test("a file of another origin is refused with a message, and the mushroom stays", async (t) => {
     const { page } = await open(t);
-    const before_ = page.url();
+    const before_ = (await addressOf(page)).href;
     await drop(page, Buffer.from("not a model"), "poem.glb");
     await page.locator("#problem:not([hidden])").waitFor();
     assert.match(await page.locator("#problem").textContent(), /\w+ \w+/);
-    assert.equal(page.url(), before_);
+    assert.equal((await addressOf(page)).href, before_);
     await ready(page);
 });
 
@@ -420,12 +420,12 @@ test("the whole page can be used by keyboard and the focus is always visible", a
     await page.keyboard.press("ArrowDown");
     await page.keyboard.press("Enter");
     await ready(page);
-    assert.equal(parameters(page).get("species"), (species[1] ?? species[0]).id);
+    assert.equal((await parameters(page)).get("species"), (species[1] ?? species[0]).id);
 
     await slider(page, "age").focus();
     await page.keyboard.press("ArrowRight");
     await ready(page);
-    assert.ok(Number(parameters(page).get("age")) > 0.6);
+    assert.ok(Number((await parameters(page)).get("age")) > 0.6);
 
     const before_ = await stagePicture(page);
     await page.locator("#canvas").focus();
@@ -500,7 +500,7 @@ test("repeated changes free all memory of the graphics card", async (t) => {
     for (let i = 0; i < 5; ++i) last = await roll();
     assert.equal(last.geometries, first.geometries);
     assert.equal(last.textures, first.textures);
-    assert.ok(parameters(page).has("seed"));
+    assert.ok((await parameters(page)).has("seed"));
 });
 
 test("wireframe and named views change the picture, and the address has the view", async (t) => {
@@ -514,7 +514,7 @@ test("wireframe and named views change the picture, and the address has the view
     await page.evaluate(() => window.sporeprint.ready());
     assert.notDeepEqual(await stagePicture(page), wire);
     assert.deepEqual(
-        [...parameters(page)],
+        [...(await parameters(page))],
         [
             ["species", species[0].id],
             ["view", "below"],
@@ -537,7 +537,7 @@ test("solids for collision are drawn as edges and are no draw calls", async (t) 
     await body.evaluate(() => document.querySelector("#solids").click());
     await body.evaluate(() => window.sporeprint.ready());
     assert.notDeepEqual(await stagePicture(body), withSolids, "they can be hidden");
-    assert.equal(parameters(body).get("solids"), "hidden");
+    assert.equal((await parameters(body)).get("solids"), "hidden");
     expectNoProblems(ofBody);
     expectNoProblems(log);
 });
@@ -548,8 +548,7 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
     assert.ok(await without.locator("#breeze").isHidden());
     for (const format of ["uv", "attribute", "color"]) {
         const { page, log } = await open(t, `${still}&wind=${format}`);
-        const press = (button) =>
-            page.evaluate((id) => document.querySelector(id).click(), button);
+        const press = (button) => page.evaluate((id) => document.querySelector(id).click(), button);
         // The pixels of the canvas alone are read in the task that has drawn them.
         const drawn = () =>
             page.evaluate(async () => {
@@ -561,7 +560,7 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
         for (const channel of ["all", "bend", "phase"]) {
             await press(`[data-channel="${channel}"]`);
             views.add(await drawn());
-            assert.equal(parameters(page).get("weights"), channel);
+            assert.equal((await parameters(page)).get("weights"), channel);
         }
         assert.equal(views.size, 4, `${format}: each weight is shown`);
         await press('[data-channel="phase"]');
@@ -633,10 +632,10 @@ test("the export panel has every switch of the file, its costs, and what can be 
     await page.locator("#tab-export").focus();
     await page.keyboard.press("ArrowLeft");
     assert.ok(await page.locator("#form").isVisible());
-    assert.equal(parameters(page).get("panel"), null);
+    assert.equal((await parameters(page)).get("panel"), null);
     await page.keyboard.press("ArrowRight");
-    assert.equal(parameters(page).get("panel"), "export");
-    await page.goto(`${page.url()}&lods=half`);
+    assert.equal((await parameters(page)).get("panel"), "export");
+    await page.goto(`${(await addressOf(page)).href}&lods=half`);
     await ready(page);
     assert.match(
         await page.locator('.control[data-name="lods"] .validation-error').textContent(),
@@ -664,8 +663,8 @@ test("levels of detail are shown as large as they are drawn last", async (t) => 
         let { triangles, pixels } = await shown(page);
         assert.ok(Math.abs(pixels / (level(2).screen_coverage * 1080) - 1) < 0.02, `${pixels}`);
         assert.ok(triangles < 0.5 * level(1).triangles && triangles > level(3).triangles);
-        assert.equal(parameters(page).get("level"), "2");
-        assert.equal(parameters(page).get("lod"), "1", "the file is the same");
+        assert.equal((await parameters(page)).get("level"), "2");
+        assert.equal((await parameters(page)).get("lod"), "1", "the file is the same");
         await page.locator("#level-screen").selectOption("2160");
         assert.ok(Math.abs((await shown(page)).pixels / (2 * pixels) - 1) < 0.02);
         await reload(page, log);
@@ -673,14 +672,14 @@ test("levels of detail are shown as large as they are drawn last", async (t) => 
         assert.equal((await shown(page)).triangles, triangles, "the address has the level");
         await page.locator('[data-level="2"]').click();
         assert.ok((await shown(page)).triangles > triangles);
-        assert.equal(parameters(page).get("level"), null);
+        assert.equal((await parameters(page)).get("level"), null);
         expectNoProblems(log);
     }
     const { page, log } = await open(t, small);
     await page.locator('[data-level="0"]').waitFor();
     await page.locator('[data-level="3"]').click();
     await ready(page);
-    assert.equal(parameters(page).get("lod"), "3", "a level of its own is another file");
+    assert.equal((await parameters(page)).get("lod"), "3", "a level of its own is another file");
     assert.equal(await page.locator('[data-level="3"]').getAttribute("aria-pressed"), "true");
     await page.locator('[data-level="0"]').waitFor();
     expectNoProblems(log);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import test, { after, before } from "node:test";
-import { launchBrowser, logEvents, ready, reload, serverUrl } from "./support.mjs";
+import { launchBrowser, logEvents, parameters, ready, reload, serverUrl } from "./support.mjs";
 
 const base = serverUrl();
 const plain = "lod=2&texture_size=128";
@@ -39,7 +39,6 @@ async function open(t, query, viewport = undefined) {
     return { page, log };
 }
 
-const parameters = (page) => new URL(page.url()).searchParams;
 const view = (page, name) => page.locator(`[data-view="${name}"]`);
 const frame = (page) => page.evaluate(() => window.sporeprint.frame);
 const shorter = ({ width, height }) => Math.min(width, height);
@@ -103,7 +102,7 @@ test("each light changes brightness and colour as named, and survives a reload",
     for (const light of ["overcast", "studio", "backlight", "dusk"]) {
         await page.locator("#light").selectOption(light);
         seen[light] = await measured(page);
-        assert.equal(parameters(page).get("light"), light);
+        assert.equal((await parameters(page)).get("light"), light);
         assert.equal(seen[light].alpha, 255, "the background is a part of the picture");
     }
     const bright = Object.fromEntries(
@@ -125,7 +124,11 @@ test("each light changes brightness and colour as named, and survives a reload",
     const again = await measured(page);
     assert.ok(Math.abs(brightness(again) - bright.dusk) < 1, `${brightness(again)} ${bright.dusk}`);
     await page.locator("#light").selectOption("daylight");
-    assert.equal(parameters(page).get("light"), null, "the usual light is not in the address");
+    assert.equal(
+        (await parameters(page)).get("light"),
+        null,
+        "the usual light is not in the address",
+    );
     assert.ok(Math.abs(brightness(await measured(page)) - bright.daylight) < 1);
     expectNoProblems(log);
 });
@@ -142,7 +145,7 @@ test("close-ups show margin, underside and base in their sizes, by button and ke
         seen[name] = await frame(page);
         const shown = shorter(seen[name]);
         assert.ok(Math.abs(shown / metres - 1) < 0.1, `${name}: ${shown} m`);
-        assert.equal(parameters(page).get("view"), name);
+        assert.equal((await parameters(page)).get("view"), name);
         assert.equal(await view(page, name).getAttribute("aria-pressed"), "true");
     }
     const [margin, underside, foot] = Object.keys(metresOf).map((name) => seen[name].target);
@@ -156,7 +159,7 @@ test("close-ups show margin, underside and base in their sizes, by button and ke
     await page.locator("#canvas").focus();
     const key = await view(page, "margin").getAttribute("aria-keyshortcuts");
     await page.keyboard.press(key);
-    assert.equal(parameters(page).get("view"), "margin");
+    assert.equal((await parameters(page)).get("view"), "margin");
     await reload(page, log);
     await ready(page);
     assert.deepEqual((await frame(page)).target, margin, "an address opens with its close-up");
@@ -164,7 +167,11 @@ test("close-ups show margin, underside and base in their sizes, by button and ke
 
     await page.locator("#canvas").focus();
     await page.keyboard.press("ArrowLeft");
-    assert.equal(parameters(page).get("view"), null, "a camera that was turned has no name");
+    assert.equal(
+        (await parameters(page)).get("view"),
+        null,
+        "a camera that was turned has no name",
+    );
     assert.equal(await view(page, "margin").getAttribute("aria-pressed"), "false");
     await page.keyboard.press("Home");
     assert.ok(Math.abs(shorter(await frame(page)) / shorter(whole) - 1) < 0.01);
@@ -177,7 +184,7 @@ test("a close-up that a form does not have is disabled and says why", async (t) 
     assert.match(await view(page, "margin").getAttribute("title"), /A club has no margin/);
     assert.ok(await view(page, "underside").isDisabled());
     assert.ok(await view(page, "base").isEnabled());
-    assert.equal(parameters(page).get("view"), null);
+    assert.equal((await parameters(page)).get("view"), null);
     const size = await page.evaluate(() => window.sporeprint.size);
     assert.ok(shorter(await frame(page)) > size.above, "the whole is shown instead");
     expectNoProblems(log);
@@ -227,14 +234,14 @@ test("depth of field is off at first, blurs what is not in focus, and comes to r
 
     await page.locator("#depth").click();
     const blurred = await measured(page);
-    assert.equal(parameters(page).get("aperture"), "4");
+    assert.equal((await parameters(page)).get("aperture"), "4");
     assert.ok(blurred.detail < sharp.detail * 0.9, `${blurred.detail} of ${sharp.detail}`);
     assert.ok(Math.abs(brightness(blurred) - brightness(sharp)) < 4, "it is as bright");
 
     await page.locator("#aperture").focus();
     await page.keyboard.press("Home");
     const open_ = await measured(page);
-    assert.equal(parameters(page).get("aperture"), "1.4");
+    assert.equal((await parameters(page)).get("aperture"), "1.4");
     assert.equal(await page.locator("#aperture").getAttribute("aria-valuetext"), "f/1.4");
     assert.ok(open_.detail < blurred.detail, "a wider aperture blurs more");
     const rest = await calls();
@@ -242,7 +249,7 @@ test("depth of field is off at first, blurs what is not in focus, and comes to r
     assert.equal(await calls(), rest, "the final picture is not drawn again");
 
     await page.locator("#depth").click();
-    assert.equal(parameters(page).get("aperture"), null);
+    assert.equal((await parameters(page)).get("aperture"), null);
     const off = await measured(page);
     assert.ok(Math.abs(off.detail - sharp.detail) < 0.01, "off is the picture of before");
     expectNoProblems(log);
@@ -288,7 +295,10 @@ test("a saved picture has twice the size of the stage and the same content", asy
             const { width, height } = document.querySelector("#canvas");
             return [width, height];
         });
-        assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], canvas.map((n) => 2 * n));
+        assert.deepEqual(
+            [png.readUInt32BE(16), png.readUInt32BE(20)],
+            canvas.map((n) => 2 * n),
+        );
         const far = await difference(page, png);
         assert.ok(far < most, `they differ by ${far} of 255`);
     }

@@ -97,6 +97,19 @@ export async function reload(page, log) {
     await page.reload();
 }
 
+/**
+ * Returns the page's address. The page is asked: `page.url()` hears of an address that a script has
+ * set only after a while.
+ */
+export async function addressOf(page) {
+    return new URL(await page.evaluate(() => location.href));
+}
+
+/** Returns the parameters of the page's address. */
+export async function parameters(page) {
+    return (await addressOf(page)).searchParams;
+}
+
 /** Waits until the shown model equals the controls and a frame was drawn. */
 export async function ready(page) {
     await page.waitForFunction(() => window.sporeprint, undefined, { timeout: patience });

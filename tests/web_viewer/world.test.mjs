@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { PageOfItsOwn, patience, screenshotFolder } from "./support.mjs";
+import { addressOf, PageOfItsOwn, patience, screenshotFolder } from "./support.mjs";
 
 const beech = "?world=beech,seed=7&x=24&y=-10&year=80&day=270";
 
@@ -88,7 +88,7 @@ test("the slider of the day brings other fungi, at first them alone", async () =
     assert.equal(await page.locator("#world-time").textContent(), "12 Oct, year 80");
     await settled(page, () => page.locator("#day").dispatchEvent("change"));
     for (const address of Object.values(await shown(page))) assert.match(address, /y80d285/);
-    assert.match(page.url(), /day=285/);
+    assert.match((await addressOf(page)).href, /day=285/);
     assertQuiet(log);
 });
 
@@ -132,7 +132,7 @@ test("a click on the map moves the view there, arrows move it on, and other maps
         await page.waitForFunction((name) => document.getElementById("map-frame").dataset.map?.includes(`/maps/${name}`), map, { timeout: patience });
         await at(page, "ready");
     }
-    assert.match(page.url(), /map=terrarium/);
+    assert.match((await addressOf(page)).href, /map=terrarium/);
     await page.locator("#map-choice").selectOption("spores");
     await page.locator("#map-species").selectOption("boletus_edulis");
     await page.waitForFunction(() => document.getElementById("map-frame").dataset.map?.includes("species=boletus_edulis"), undefined, { timeout: patience });
@@ -190,7 +190,7 @@ test("an address restores the world, the place, the time, the layers, the map an
     const world = "world=spruce,seed=3,climate.rain=1200,fungi.species=boletus_edulis%2Bcantharellus_cibarius";
     const query = `?${world}&x=-40&y=60&year=120&day=250&size=12&hide=trees&map=wetness&why=-40,60&look=3,2,5,0,0.3,0`;
     const { page, log } = await openAlone(query);
-    assert.equal(new URL(page.url()).search, query, "the address stays as it was");
+    assert.equal((await addressOf(page)).search, query, "the address stays as it was");
     assert.equal(await page.locator("#preset").inputValue(), "spruce");
     assert.equal(await page.locator("#control-climate\\.rain-number").inputValue(), "1200");
     assert.deepEqual(await page.locator(".chips li").allTextContents(), ["Cep×", "Chanterelle×"]);
@@ -199,7 +199,8 @@ test("an address restores the world, the place, the time, the layers, the map an
     assert.equal(await page.locator("#map-choice").inputValue(), "wetness");
     assert.deepEqual((await state(page)).look, [3, 2, 5, 0, 0.3, 0]);
     await page.locator("#copy-page").click();
-    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), page.url());
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    assert.equal(copied, (await addressOf(page)).href);
     await page.locator("#copy-resource").click();
     await page.locator("#notice", { hasText: "URL copied" }).waitFor();
     const resource = await page.evaluate(() => navigator.clipboard.readText());
@@ -217,7 +218,7 @@ test("a parameter that is changed makes another world, and a refused one is name
         await page.locator("#control-climate\\.rain-number").press("Enter");
     });
     assert.match((await shown(page)).ground, /^v1\/worlds\/beech,seed=7,climate\.rain=300\//);
-    assert.match(page.url(), /world=beech,seed=7,climate\.rain=300/);
+    assert.match((await addressOf(page)).href, /world=beech,seed=7,climate\.rain=300/);
     await settled(page, () => page.locator(".chips button").first().click());
     assert.equal(await page.locator(".chips li").count(), 11);
     assertQuiet(log);
@@ -243,11 +244,11 @@ test("a world stands on a terrain that is sent, and on grown hills again", async
         Promise.all([page.waitForResponse((response) => response.url().includes("terrain.id=t-") && response.url().includes("plot.glb")), page.click("#terrain-use")]),
     );
     await page.waitForFunction(() => document.querySelector("#terrain-about").textContent.startsWith("129 × 129 heights over 256 m"));
-    const address = new URL(page.url()).searchParams.get("world");
+    const address = (await addressOf(page)).searchParams.get("world");
     assert.match(address, /^meadow,seed=7,extent=256,terrain\.id=t-[0-9a-f]{32}$/, "what has no meaning beside it is gone");
     assert.deepEqual(log.failed, []);
     await settled(page, () => page.click("#terrain-none"));
-    assert.equal(new URL(page.url()).searchParams.get("world"), "meadow,seed=7,extent=256");
+    assert.equal((await addressOf(page)).searchParams.get("world"), "meadow,seed=7,extent=256");
 
     await page.fill("#terrain-max", "9000");
     await page.fill("#terrain-metres", "16");
@@ -267,7 +268,7 @@ test("layers go and come without a request, and the saved plot has those that ar
     await page.locator('[data-layer="floor"]').uncheck();
     await page.waitForFunction((old) => window.worlds.renderer.triangles < old, before, { timeout: patience });
     assert.deepEqual(log.requests.filter((url) => url.includes("/v1/")), []);
-    assert.match(page.url(), /hide=trees,floor/);
+    assert.match((await addressOf(page)).href, /hide=trees,floor/);
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
     assert.match(download.suggestedFilename(), /\.glb$/);
     assert.ok(log.requests.at(-1).includes("layers=ground+fungi"));
@@ -301,7 +302,7 @@ test("one walks and flies through tiles, and a new day replaces the tiles of the
     await at(page, "ready");
     const walked = await state(page);
     assert.equal(walked.look[2], 1.6, "at the height of eyes");
-    assert.match(page.url(), /view=walk/);
+    assert.match((await addressOf(page)).href, /view=walk/);
     await settled(page, () => page.locator('[data-view="fly"]').click());
     await page.locator("#canvas").focus();
     await page.keyboard.down("e");
