@@ -141,9 +141,10 @@ std::string example_preset(const Atlas& atlas) { return atlas.trees().front().id
 
 std::string example_leaf(const Atlas& atlas) { return atlas.leaves().front().id.string(); }
 
-/// Returns true for parameters of a tree that say nothing about its leaves: all but the season.
+/// Returns true for parameters of a tree that say nothing about its leaves: all but the season and the snow.
 bool is_of_tree_alone(std::string_view name) {
-    return name != "spring" && name != "autumn" && is_query_name<TreeParams>(name);
+    return name != "spring" && name != "autumn" && name != "snow" &&
+           is_query_name<TreeParams>(name);
 }
 
 Value leaf_paint_schema(const Atlas&) {

@@ -153,9 +153,10 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
         params.shape.venation = paint.venation;
         LeafPalette palette = paint.palette;
         palette.summer = unfolding(palette.summer, paint.spring);
-        const RawImages images = leaf_images(
-            shape_of(params), palette, paint.autumn, paint.seed, paint.texture_size,
-            paint.sprays ? LeafLayout::with_sprays : LeafLayout::alone, execution.parallel);
+        const RawImages images =
+            leaf_images(shape_of(params), palette, paint.autumn, paint.seed, paint.texture_size,
+                        paint.sprays ? LeafLayout::with_sprays : LeafLayout::alone, paint.snow,
+                        execution.parallel);
         throw_if_cancelled(execution);
         return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
     });

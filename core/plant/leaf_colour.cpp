@@ -59,7 +59,7 @@ double gradation(GradationLaw law, double ratio) {
 LeafColours unfolding(const LeafColours& summer, double spring) {
     // Towards the colour of young leaves of beeches, which keeps half of the differences within a leaf.
     constexpr glm::dvec3 young(158.0, 190.0, 74.0);
-    constexpr double most = 0.6;
+    constexpr double most = 0.75;
     const auto paler = [&](const Colour& colour) {
         const glm::dvec3 own(colour.r, colour.g, colour.b);
         const glm::dvec3 mix = mixed(own, young, most * spring);

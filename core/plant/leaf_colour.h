@@ -104,6 +104,9 @@ static_assert(well_described<LeafPalette>());
 /// last.
 [[nodiscard]] double autumn_depth(const LaminaPlace& place);
 
+/// The linear colour of snow in the light.
+inline constexpr glm::dvec3 snow_light{0.80, 0.84, 0.89};
+
 /// Maps positions on a lamina to colours; the colours of the palette are converted to linear light
 /// once.
 class LeafColourMap {

@@ -11,9 +11,11 @@
 
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
+#include "core/plant/cell_middle.h"
 #include "core/plant/image_rows.h"
 #include "core/plant/leaf_shell.h"
 #include "core/plant/leaf_spray.h"
+#include "core/plant/needle_shoot.h"
 
 namespace sporeprint {
 
@@ -83,19 +85,6 @@ struct Network {
 };
 constexpr Network ladder = {11.0, 23.0, 0.09, 1.0, 17};
 constexpr Network meshes = {52.0, 60.0, 0.2, 0.5, 71};
-
-// Returns the middle of a cell, which lies anywhere in the inner parts of its square.
-glm::dvec2 cell_middle(int x, int y, std::uint32_t salt) {
-    std::uint32_t mixed = static_cast<std::uint32_t>(x) * 0x9E3779B1U ^
-                          static_cast<std::uint32_t>(y) * 0x85EBCA77U ^ salt * 0xC2B2AE3DU;
-    mixed ^= mixed >> 15U;
-    mixed *= 0x2C1B3C6DU;
-    mixed ^= mixed >> 12U;
-    mixed *= 0x297A2D39U;
-    mixed ^= mixed >> 15U;
-    constexpr double inset = 0.12, scale = (1.0 - 2.0 * inset) / 65535.0;
-    return {x + inset + scale * (mixed & 0xFFFFU), y + inset + scale * (mixed >> 16U)};
-}
 
 // Finds the walls between the cells of a network. It keeps the middles round the last place: most
 // texels of a row are in the cell of the one before.
@@ -198,13 +187,14 @@ struct Texel {
 class LeafPainter {
   public:
     LeafPainter(const LeafShape& shape, const LeafPalette& palette, double autumn,
-                std::uint32_t seed, std::size_t side, LeafLayout layout)
+                std::uint32_t seed, std::size_t side, LeafLayout layout, double snow)
         : sampler_(lamina_of(shape.venation, leaf_steps(shape.venation, 0))),
           has_shoots_(is_slim(sampler_.lamina())),
           has_sprays_(layout == LeafLayout::with_sprays && !has_shoots_),
           chart_(chart_of(sampler_.lamina(), has_sprays_ ? layout : LeafLayout::alone)),
           colour_map_(palette),
           autumn_(autumn),
+          snow_(snow),
           relief_(shape.relief),
           net_(shape.venation.net),
           marks_(palette.marks),
@@ -231,11 +221,12 @@ class LeafPainter {
         blade.affinity = 0.5;
         blade.homothety = 0.3;
         blade.from_main = blade.from_side = 1e9;
-        needle_ = colour_map_.at(blade, autumn_);
+        const LeafColourMap::Faces needle = colour_map_.at(blade, autumn_);
         blade.homothety = 1.0;
         blade.affinity = 0.9;
-        young_ = colour_map_.at(blade, autumn_);
-        if (has_shoots_) spray_shoots_ = shoots_of_spray();
+        if (has_shoots_)
+            shoots_.emplace(ShootPainter::Colours{needle, colour_map_.at(blade, autumn_), petiole_},
+                            snow_, seed_);
         if (has_shoots_ || has_sprays_) images_.alpha.assign(count_ * count_, opaque);
         if (has_sprays_) on_lamina_.assign(count_ * count_ / 2, 0.0F);
         find_lamina_tiles();
@@ -345,10 +336,11 @@ class LeafPainter {
         if (has_shoots_) {
             clear(y, shoot_panel, 0.11, 0.50);
             paint_panel(y, shoot_panel, [this](double along, double across) {
-                return shoot_at(along, across, 1.0);
+                return shoots_->shoot_at(along, across);
             });
-            paint_panel(y, spray_panel,
-                        [this](double along, double across) { return spray_at(along, across); });
+            paint_panel(y, spray_panel, [this](double along, double across) {
+                return shoots_->spray_at(along, across);
+            });
         }
         if (!has_sprays_) return;
         clear(y, panel_of(LeafGroup::twig), 0.245, 0.50);
@@ -377,118 +369,6 @@ class LeafPainter {
     struct Span {
         std::size_t first = 0, last = 0;
     };
-
-    // Needles of a layer: how many along a shoot, how far their tips are ahead of their roots, how far
-    // they reach from the twig, half their breadth in their distance, and their light.
-    struct Layer {
-        double count, ahead, length, half, light;
-        std::uint32_t salt;
-    };
-    static constexpr std::array<Layer, 3> layers = {Layer{44.0, 0.060, 1.0, 0.27, 0.95, 5},
-                                                    Layer{37.0, 0.085, 0.92, 0.26, 1.40, 31},
-                                                    Layer{30.0, 0.110, 0.62, 0.25, 1.85, 77}};
-
-    /// Returns a point of the picture of a shoot where no needle is.
-    [[nodiscard]] PanelPoint between_needles() const {
-        return {0.7 * needle_.upper, 0.7 * needle_.lower, {}, 0.6, false};
-    }
-
-    /// Returns a point of the picture of a shoot: three layers of needles on either side of a twig, the lower
-    /// ones dark.
-    ///
-    /// along   from its root, 0, to its tip, 1
-    /// across  -1..1
-    /// dense   number of needles, by that of a whole shoot
-    [[nodiscard]] PanelPoint shoot_at(double along, double across, double dense) const {
-        PanelPoint seen = between_needles();
-        const double out = std::abs(across);
-        const auto put = [&](const glm::dvec3& upper, const glm::dvec3& lower, double tilt,
-                             double open) {
-            seen = {upper, lower, {0.35 * tilt, tilt}, open};
-        };
-        for (std::size_t k = 0; k < layers.size(); ++k) {
-            const Layer& layer = layers[k];
-            if (k + 1 == layers.size() && out < 0.05 * (1.1 - along))
-                put(0.8 * petiole_, 0.8 * petiole_, 0.0, 0.7);
-            // Two needles can meet at a point, since each leans by itself.
-            const double nearest =
-                (along - layer.ahead * out / std::sqrt(dense)) * layer.count * dense;
-            for (int next = -1; next <= 1; ++next) {
-                const double index = std::floor(nearest) + next;
-                const glm::dvec2 own =
-                    cell_middle(static_cast<int>(index), across < 0.0 ? 1 : 2, layer.salt + seed_);
-                const double moved = own.x - std::floor(own.x), drawn = own.y - std::floor(own.y);
-                // Needles are shorter at both ends of a shoot.
-                const double root = (index + 0.5) / (layer.count * dense);
-                const double end = std::min({1.0, 0.45 + 6.0 * root, 7.0 * (1.0 - root)});
-                const double reach = layer.length * (0.72 + 0.28 * drawn) * end;
-                if (reach <= 0.0) continue;
-                const double t = out / reach;
-                if (t >= 1.0) continue;
-                const double lean = 0.5 * (drawn - 0.5) * t;
-                const double off = nearest - (index + 0.5 + 0.5 * (moved - 0.5) + lean);
-                const double half =
-                    layer.half * std::min(1.0, 3.0 * (1.0 - t)) * std::min(1.0, 0.6 + 2.0 * t);
-                if (std::abs(off) >= half) continue;
-                const double round = off / half, keel = 1.0 - 0.45 * round * round;
-                const double tone = layer.light * keel * (0.8 + 0.4 * moved) * (0.75 + 0.4 * t);
-                const double fresh =
-                    0.5 * smooth_step(0.75, 1.0, t) + 0.35 * smooth_step(0.8, 1.0, along);
-                put(tone * (needle_.upper + fresh * (young_.upper - needle_.upper)),
-                    tone * (needle_.lower + fresh * (young_.lower - needle_.lower)), 0.55 * round,
-                    std::min(1.0, 0.55 + 0.3 * layer.light));
-            }
-        }
-        return seen;
-    }
-
-    /// A shoot beside that in the middle of a spray; lengths in that of the spray.
-    struct SprayShoot {
-        double root = 0.0, length = 0.0;
-        SineCosine open{};  ///< of its angle with the spray
-    };
-    static constexpr std::size_t shoots_on_side = 8;
-
-    /// Returns the shoots of a spray, on its left from the root on, then on its right.
-    [[nodiscard]] std::array<SprayShoot, 2 * shoots_on_side> shoots_of_spray() const {
-        constexpr double longest = 0.42;
-        std::array<SprayShoot, 2 * shoots_on_side> shoots;
-        for (std::size_t i = 0; i < shoots.size(); ++i) {
-            const std::size_t k = i % shoots_on_side;
-            const bool is_left = i < shoots_on_side;
-            const glm::dvec2 own = cell_middle(static_cast<int>(k), is_left ? 3 : 4, 11 + seed_);
-            const double drawn = own.x - std::floor(own.x), leaning = own.y - std::floor(own.y);
-            SprayShoot& one = shoots[i];
-            one.root = 0.9 *
-                       (static_cast<double>(k) + (is_left ? 0.05 : 0.55) + 0.3 * (leaning - 0.5)) /
-                       static_cast<double>(shoots_on_side);
-            one.length = longest * (0.35 + 0.65 * (1.0 - one.root)) * (0.6 + 0.4 * drawn);
-            // They lean forward, more so towards the tip.
-            one.open = sine_cosine(radians(62.0 - 16.0 * one.root + 16.0 * (leaning - 0.5)));
-        }
-        return shoots;
-    }
-
-    /// Returns a point of the picture of a spray: shoots on either side of one in the middle, shorter towards its
-    /// tip.
-    ///
-    /// along, across  as of a shoot
-    [[nodiscard]] PanelPoint spray_at(double along, double across) const {
-        constexpr double half = 0.052, dense_side = 0.7;
-        const double x = across * spray_panel.half_breadth, out = std::abs(x);
-        // The shoot in the middle is before the others, and later ones are before earlier ones.
-        if (out < half)
-            if (const PanelPoint one = shoot_at(along, x / half, 1.0); one.is_drawn) return one;
-        const std::size_t first = x < 0.0 ? 0 : shoots_on_side;
-        for (std::size_t k = first + shoots_on_side; k-- > first;) {
-            const auto& [root, length, open] = spray_shoots_[k];
-            const double up = along - root, t = (out * open.sine + up * open.cosine) / length;
-            const double off = (up * open.sine - out * open.cosine) / half;
-            if (t < 0.0 || t > 1.0 || std::abs(off) > 1.0) continue;
-            if (const PanelPoint one = shoot_at(t, off, dense_side); one.is_drawn) return one;
-        }
-        return between_needles();
-    }
 
     [[nodiscard]] double side() const { return static_cast<double>(count_); }
     [[nodiscard]] std::size_t column(double at) const {
@@ -710,6 +590,11 @@ class LeafPainter {
         }
         const double shade = share_ * (1.0 + 0.16 * blotch + 0.1 * cell);
         const double rough = 0.08 * cell + 0.2 * autumn_;
+        if (snow_ > 0.0) {
+            // Patches of it, which melt from the border inwards.
+            const double lies = 2.2 * snow_ - 0.9 + 0.9 * blotch + 0.25 * cell - 0.3 * rim_yellow;
+            faces.upper += smooth_step(0.0, 0.12, lies) * (snow_light - faces.upper);
+        }
         const double gloss = 0.1 * blotch - 0.06 * depth + 0.05 * place.net;
         upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.48 + gloss + rough);
         lower.add(share_, shade * faces.lower, 1.0, 0.75 + rough);
@@ -729,7 +614,7 @@ class LeafPainter {
     LeafChart chart_;
     LeafColourMap colour_map_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
-    double autumn_, relief_, net_, marks_;
+    double autumn_, snow_, relief_, net_, marks_;
     double broad_;  // 0 for a needle, 1 for a blade
     std::vector<EatenSpot> eaten_;
     std::uint32_t seed_;
@@ -737,7 +622,6 @@ class LeafPainter {
     std::size_t points_;  // per texel in each direction, because veins are narrow
     double share_;        // weight of a point in its texel
     glm::dvec3 petiole_{0.0};
-    LeafColourMap::Faces needle_, young_;       // colours of a needle and of its tip
     std::vector<double> columns_;               // x in the plane of the lamina, by point
     std::array<std::vector<float>, 2> across_;  // the same in units of the noise lattice
     std::size_t tile_;                          // texels across
@@ -747,7 +631,7 @@ class LeafPainter {
     std::vector<float> heights_;                // of the upper face, in lengths of the lamina
     std::vector<float> on_lamina_;              // share of each texel of the upper face, for sprays
     std::optional<SprayPainter> sprays_;
-    std::array<SprayShoot, 2 * shoots_on_side> spray_shoots_{};
+    std::optional<ShootPainter> shoots_;
     RawImages images_;
 };
 
@@ -763,16 +647,18 @@ bool shows_shoots(const LeafShape& shape) {
 }
 
 RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double autumn,
-                      std::uint32_t seed, int side, LeafLayout layout, const Parallel& parallel) {
+                      std::uint32_t seed, int side, LeafLayout layout, double snow,
+                      const Parallel& parallel) {
     std::vector<Problem> problems;
     check(shape, Info{.name = ""}, "", problems);
     check(palette, Info{.name = ""}, "", problems);
     if (side < 16 || side > 2048 || (side & (side - 1)) != 0)
         report(problems, "/side", std::to_string(side) + " is no power of two in 16..2048");
     if (!(autumn >= 0.0 && autumn <= 1.0)) report(problems, "/autumn", "is outside 0..1");
+    if (!(snow >= 0.0 && snow <= 1.0)) report(problems, "/snow", "is outside 0..1");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
-    LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side), layout);
+    LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side), layout, snow);
     for_each_row(side, parallel, [&](std::size_t y) { painter.colour_row(y); });
     for_each_row(side, parallel, [&](std::size_t y) { painter.normal_row(y); });
     painter.take_leaf();

@@ -27,14 +27,16 @@ inline constexpr double leaf_alpha_cutoff = 0.4;
 /// seed     selects the blotches of this leaf
 /// side     16..2048 texels, a power of two
 /// layout   sprays have no effect for a needle
+/// snow     how much of the upper face it covers, 0..1
 /// returns  three RGB images, painted slightly beyond the border and constant from there on, so
 ///          that mipmaps do not bleed in; with alpha where there are shoots or sprays: between
 ///          their needles or leaves it is 0
-/// throws   InvalidInput with all that check() reports, or for another side (path "/side")
+/// throws   InvalidInput with all that check() reports, or for another side (path "/side") or
+///          a share outside 0..1 (paths "/autumn", "/snow")
 /// cost     O(side^2)
 [[nodiscard]] RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette,
                                     double autumn, std::uint32_t seed, int side,
-                                    LeafLayout layout = LeafLayout::alone,
+                                    LeafLayout layout = LeafLayout::alone, double snow = 0.0,
                                     const Parallel& parallel = in_turn);
 
 }  // namespace sporeprint

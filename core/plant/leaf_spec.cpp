@@ -17,6 +17,7 @@ LeafPaint paint_of(const LeafParams& params) {
     paint.variation = params.variation;
     paint.spring = params.spring;
     paint.autumn = params.autumn;
+    paint.snow = params.snow;
     paint.texture_size = {params.texture_size >> params.lod};
     paint.relief = params.shape.relief;
     // Images of compound leaves show no damage.

@@ -20,6 +20,7 @@ struct LeafParams {
     double variation = 0.5;
     double spring = 0.0;
     double autumn = 0.0;
+    double snow = 0.0;
     int lod = 0;
     std::optional<int> triangles;
     TextureSize texture_size{1024};
@@ -53,6 +54,11 @@ struct LeafParams {
                                .max = 1,
                                .doc = "From summer (0) through full autumn colour (0.5) to what "
                                       "lies on the ground (1)."});
+        visit(&P::snow, Info{.name = "snow",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "From none (0) to snow on all of the upper face (1); on "
+                                    "shoots of needles it lies in lumps between these too."});
         visit(&P::lod, mesh_lod_info);
         visit(&P::triangles, triangles_info);
         visit(&P::texture_size, texture_size_info);
@@ -75,6 +81,7 @@ struct LeafPaint {
     double variation = 0.5;
     double spring = 0.0;
     double autumn = 0.0;
+    double snow = 0.0;
     ImageSide texture_size{1024};
     double relief = 0.6;
     double eaten = 0.03;
@@ -89,6 +96,7 @@ struct LeafPaint {
         visit(&P::variation, info_of<L>("variation"));
         visit(&P::spring, info_of<L>("spring"));
         visit(&P::autumn, info_of<L>("autumn"));
+        visit(&P::snow, info_of<L>("snow"));
         visit(&P::texture_size,
               Info{.name = "side", .unit = "texels", .doc = "Side of this image."});
         visit(&P::relief, info_of<LeafShape>("relief"));

@@ -26,6 +26,7 @@ LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset) {
     LeafParams leaf = params_of(preset);
     leaf.spring = params.spring;
     leaf.autumn = params.autumn;
+    leaf.snow = params.snow;
     // All leaves of a tree share one image: the same hole in each would be seen.
     leaf.shape.eaten = leaf.palette.marks = 0.0;
     leaf.lod = std::min(params.lod, last_lod);

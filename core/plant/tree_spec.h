@@ -55,6 +55,7 @@ struct TreeParams {
     double size = 1.0;
     double spring = 0.0;
     double autumn = 0.0;
+    double snow = 0.0;
     int lod = 0;
     std::optional<int> triangles;
     TextureSize texture_size{1024};
@@ -82,6 +83,7 @@ struct TreeParams {
         visit(&P::size, info_of<L>("size"));
         visit(&P::spring, info_of<L>("spring"));
         visit(&P::autumn, info_of<L>("autumn"));
+        visit(&P::snow, info_of<L>("snow"));
         visit(&P::lod, Info{.name = "lod",
                             .min = 0,
                             .max = last_far_lod,

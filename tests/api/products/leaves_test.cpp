@@ -250,7 +250,7 @@ TEST(LeafSchema, SaysWhoseDefaultsAreThePresets) {
         EXPECT_EQ(own.erase(option.name) + preset.erase(option.name), 1U);
     });
     EXPECT_EQ(preset.erase("lod"), 1U) << "which the profile sets";
-    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "variation", "spring", "autumn",
+    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "variation", "spring", "autumn", "snow",
                                           "texture_size", "textures"}));
     for (const char* name : {"venation.lobes", "length", "paler_below", "fallen.tip"})
         EXPECT_TRUE(preset.contains(name)) << name;

@@ -400,7 +400,7 @@ TEST(TreeSchema, SaysWhoseDefaultsAreThePresets) {
         EXPECT_EQ(own.erase(option.name) + preset.erase(option.name), 1U);
     });
     EXPECT_EQ(preset.erase("lod"), 1U) << "which the profile sets";
-    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "spring", "autumn", "foot_soil",
+    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "spring", "autumn", "snow", "foot_soil",
                                           "texture_size", "textures", "instancing"}));
     for (const char* name :
          {"order", "matrix", "rows", "trunk", "leaf", "leaves.per_tip", "bark.furrows"})

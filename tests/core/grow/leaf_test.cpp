@@ -133,6 +133,9 @@ TEST(GrownLeaf, AChangeOfShapeReusesTheImages) {
     spec.params.autumn = 0.5;
     (void)grow_leaf(spec, atlas(), {}, keeper.execution);
     EXPECT_EQ(keeper.made, 2);
+    spec.params.snow = 0.5;
+    (void)grow_leaf(spec, atlas(), {}, keeper.execution);
+    EXPECT_EQ(keeper.made, 3);
 }
 
 TEST(GrownLeaf, LinksImagesOrLeavesThemOut) {

@@ -112,9 +112,9 @@ TEST(LeafImage, IsTheSameWithAnyThreadsAndDiffersBetweenSeeds) {
         for (const auto& piece : pieces) threads.emplace_back(piece);
         for (std::thread& thread : threads) thread.join();
     };
-    EXPECT_EQ(
-        one.rgb,
-        leaf_images(maple.shape, maple.palette, 0.4, 1, 64, LeafLayout::alone, in_threads).rgb);
+    EXPECT_EQ(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 1, 64, LeafLayout::alone, 0.0,
+                                   in_threads)
+                           .rgb);
     EXPECT_NE(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 2, 64).rgb);
 }
 
@@ -191,12 +191,39 @@ TEST(LeafImage, OnlyNeedlesHaveAShootWithClearGaps) {
     EXPECT_FALSE(shows_shoots(leaf_preset("fern")->shape));
 }
 
+TEST(LeafImage, SnowLiesOnUpperFacesOnly) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        SCOPED_TRACE(preset.id.string());
+        const LeafChart chart =
+            chart_of(lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0)));
+        const auto mean_of = [&](double snow, bool upper) {
+            const RawImages images =
+                leaf_images(preset.shape, preset.palette, 0.0, 1, side, LeafLayout::alone, snow);
+            glm::dvec3 sum(0.0);
+            for (int i = 0; i < 100; ++i)
+                sum += texel(images, 0, chart.texture_point({0.0, 0.2 + 0.006 * i}, upper)) / 100.0;
+            return sum;
+        };
+        const glm::dvec3 bare = mean_of(0.0, true), some = mean_of(0.5, true),
+                         deep = mean_of(1.0, true);
+        EXPECT_GT(some.b, bare.b + 0.05);
+        EXPECT_GT(deep.b, some.b + 0.05);
+        EXPECT_GT(deep.b, 0.8);
+        EXPECT_EQ(mean_of(1.0, false), mean_of(0.0, false));
+    }
+}
+
 TEST(LeafImage, InvalidRequestsAreRefused) {
     const LeafPreset& maple = *leaf_preset("maple");
     EXPECT_TRUE(names(refusal([&] { (void)leaf_images(maple.shape, maple.palette, 1.5, 1, 100); }),
                       "/side", "100"));
     EXPECT_TRUE(names(refusal([&] { (void)leaf_images(maple.shape, maple.palette, 1.5, 1, 64); }),
                       "/autumn", "outside"));
+    EXPECT_TRUE(names(refusal([&] {
+                          (void)leaf_images(maple.shape, maple.palette, 0.0, 1, 64,
+                                            LeafLayout::alone, -0.1);
+                      }),
+                      "/snow", "outside"));
 }
 
 }  // namespace

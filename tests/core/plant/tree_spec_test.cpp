@@ -53,6 +53,7 @@ TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
     other.look.leaf.id = "maple";
     other.spring = 1.0;
     other.autumn = 0.5;
+    other.snow = 0.5;
     EXPECT_EQ(paint_of(other), paint_of(params));
     EXPECT_NE(paint_of(leaf_of(other, *leaf_preset("maple"))),
               paint_of(leaf_of(params, *leaf_preset("birch"))));
@@ -69,11 +70,13 @@ TEST(TreeSpec, UsesTheImagesOfItsLeafAloneUnmarked) {
     params.seed = 77;
     params.spring = 0.5;
     params.autumn = 0.4;
+    params.snow = 0.3;
     params.texture_size.value = 256;
     params.lod = 1;
     LeafParams alone = params_of(*leaf_preset("oak"));
     alone.spring = 0.5;
     alone.autumn = 0.4;
+    alone.snow = 0.3;
     alone.texture_size.value = 256;
     alone.lod = 1;
     alone.shape.eaten = alone.palette.marks = 0.0;
