@@ -38,6 +38,12 @@ constexpr int sun_parts = 8, sky_parts = 28, ground_parts = 6;
 /// The roughness from which on a surface shows less of the sky as a mirror, and none of it at 1.
 constexpr float rough = 0.6F;
 
+/// The path of a mirrored ray through crowns, in that of the mean light of the sky: at the zenith, and at most.
+constexpr double overhead_path = 0.6, longest_path = 6.0;
+
+/// The light of crowns, as a share of what open ground returns.
+constexpr float crowns_in_mirror = 0.4F;
+
 /// Koschmieder's law: the optical depth of the air as far as one can see.
 constexpr double depth_of_visibility = 3.912;
 
@@ -78,14 +84,20 @@ glm::vec3 Sky::at(const glm::vec3& direction) const {
     return sky + sun_ * (0.10F * square + 0.25F * eighth * eighth);
 }
 
-glm::vec3 Sky::mirrored(const glm::vec3& direction, float roughness) const {
+glm::vec3 Sky::mirrored(const glm::vec3& direction, float roughness, float arriving) const {
+    if (!(arriving > 0.0F)) return glm::vec3(0.0F);
     const auto width = static_cast<double>(std::max(roughness, 0.15F));
     const auto share =
         static_cast<float>(smooth_step(-width, width, static_cast<double>(direction.y)));
     const glm::vec3 above = mix(horizon_, zenith_, std::max(direction.y, 0.0F));
     // The pieces of rough ground, such as litter, hide the sky from each other.
     const float open = std::clamp((1.0F - roughness) / (1.0F - rough), 0.0F, 1.0F);
-    return mix(ground_, above, share) * open;
+    // Beer-Lambert's law: crowns that let a share through overhead let less through aslant.
+    const double path =
+        std::min(overhead_path / std::max(static_cast<double>(direction.y), 1e-3), longest_path);
+    const auto through = static_cast<float>(power(static_cast<double>(arriving), path));
+    const glm::vec3 crowns = ground_ * (crowns_in_mirror * arriving);
+    return mix(ground_ * (arriving * arriving), mix(crowns, above, through), share) * open;
 }
 
 glm::vec3 Sky::through_air(const glm::vec3& light, const glm::vec3& direction,

@@ -37,7 +37,10 @@ class Sky {
     /// Returns what a surface of a roughness shows of sky and ground as a mirror; nothing for a roughness of 1.
     ///
     /// direction  of the mirrored ray, unit
-    [[nodiscard]] glm::vec3 mirrored(const glm::vec3& direction, float roughness) const;
+    /// arriving   share of the light of the sky that arrives at the surface, 0..1: crowns that stop the rest are seen
+    ///            in the mirror, the more the nearer to the horizon
+    [[nodiscard]] glm::vec3 mirrored(const glm::vec3& direction, float roughness,
+                                     float arriving = 1.0F) const;
 
     /// Returns light that has come through the air, whose haze takes of it and adds to it.
     ///

@@ -170,16 +170,14 @@ glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const L
     }
     const float arriving_share =
         saturated(around.y / std::max(point.ambient.arriving.y + point.ambient.stopped.y, 1e-3F));
-    // Outdoors what stops the light is seen in the mirror too: it stands where glancing rays go.
-    const float mirrored_share = lamps.sky ? arriving_share * arriving_share : arriving_share;
     const glm::vec3 mirrored_ray =
         normal * (2.0F * glm::dot(normal, point.to_camera)) - point.to_camera;
-    const glm::vec3 mirror_image = lamps.sky ? lamps.sky->mirrored(mirrored_ray, point.roughness)
-                                             : mirrored_surroundings(mirrored_ray, point.roughness);
+    const glm::vec3 mirror_image =
+        lamps.sky ? lamps.sky->mirrored(mirrored_ray, point.roughness, arriving_share)
+                  : mirrored_surroundings(mirrored_ray, point.roughness) * arriving_share;
     const float mirror = mirrored(seen, point.roughness) + coat_share;
     const glm::vec3 light = point.base_color * matt * (1.0F - coat_share) + shine +
-                            mirror_image * (mirror * mirrored_share) +
-                            glm::vec3(look.sheen) * matt * (2.0F * grazing);
+                            mirror_image * mirror + glm::vec3(look.sheen) * matt * (2.0F * grazing);
     return light + point.base_color * glm::vec3(look.glow) * emission;
 }
 

@@ -140,6 +140,27 @@ TEST(Shading, RoughGroundOutdoorsShowsNoSkyAsAMirror) {
     }
 }
 
+TEST(Shading, WaterBelowCrownsMirrorsThemMoreThanTheSkyNearTheHorizon) {
+    const Sky sky(Daylight{});
+    const auto way = [](float up) { return glm::vec3(std::sqrt(1.0F - up * up), up, 0.0F); };
+    constexpr float smooth = 0.1F;
+    for (const float up : {0.1F, 0.4F, 0.9F}) {
+        EXPECT_EQ(sky.mirrored(way(up), smooth, 1.0F), sky.mirrored(way(up), smooth));
+        EXPECT_EQ(sky.mirrored(way(up), smooth, 0.0F), glm::vec3(0.0F));
+        float last = 0.0F;
+        for (const float arriving : {0.05F, 0.2F, 0.5F, 0.8F, 1.0F}) {
+            const float seen = sky.mirrored(way(up), smooth, arriving).y;
+            EXPECT_GT(seen, last) << up << ' ' << arriving;
+            last = seen;
+        }
+    }
+    const auto share = [&](float up) {
+        return sky.mirrored(way(up), smooth, 0.5F).y / sky.mirrored(way(up), smooth).y;
+    };
+    EXPECT_LT(share(0.2F), 0.5F * share(0.6F));
+    EXPECT_GT(share(0.9F), 0.5F);
+}
+
 TEST(Shading, WithoutLightOnlyWhatGlowsIsSeen) {
     SurfacePoint point;
     point.base_color = glm::vec3(0.5F);
