@@ -94,17 +94,18 @@ class TrunkBuilder {
     }
     [[nodiscard]] double images(double s) const { return (params_.start + s) / image_length_; }
 
-    /// Moves the corners of an end along the trunk, by less than its last ring is long.
+    /// Moves the corners of an end along the trunk, by less than its last ring is long: few splinters are as long as
+    /// the trunk was, and rot makes all shorter.
     void break_end(std::size_t ring, std::size_t next, Random& random) {
         const double last_ring = std::abs(at_[ring] - at_[next]);
         const double inwards = next > ring ? 1.0 : -1.0;
         const double radius = glm::distance(places_[index(ring, 0)], middles_[ring]);
-        const double reach = std::min(0.45 * last_ring, 0.9 * radius);
+        const double reach = std::min(0.7 * last_ring, 2.0 * radius) * (1.0 - 0.7 * params_.lost);
         for (std::size_t k = 0; k < sides_; ++k) {
-            const double by = random.uniform();
+            const double by = std::sqrt(random.uniform());
             places_[index(ring, k)] += inwards * reach * by * alongs_[ring];
         }
-        middles_[ring] += inwards * reach * 0.6 * alongs_[ring];
+        middles_[ring] += inwards * reach * 0.8 * alongs_[ring];
     }
 
     /// Returns the last ring of the image that a ring is on: bark is mirrored from there on.

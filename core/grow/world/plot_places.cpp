@@ -167,8 +167,8 @@ class LyingTrunk {
         };
         if (from > 0) shorten(piece.part.from, piece.height_from, 1.0);
         if (to + 1 < ground_.size()) shorten(piece.part.to, piece.height_to, -1.0);
-        piece.aside_from = 0.6 * loose * radii_[from] * random_.symmetric();
-        piece.aside_to = 0.6 * loose * radii_[to] * random_.symmetric();
+        piece.aside_from = 1.1 * loose * radii_[from] * random_.symmetric();
+        piece.aside_to = 1.1 * loose * radii_[to] * random_.symmetric();
         pieces_.push_back(piece);
     }
 
