@@ -21,7 +21,7 @@ namespace {
 constexpr const char* frond_preset = "fern";
 
 /// Fronds of a rosette, and how many different ones there are: copies are turned and scaled.
-constexpr int fronds = 9, frond_shapes = 3;
+constexpr int fewest_fronds = 6, most_fronds = 11, frond_shapes = 3;
 
 /// Sides of the cells in which ferns stand, and of those over which their number varies, metres; and how many stand in a
 /// cell at most.
@@ -77,11 +77,15 @@ Mesh fern_mesh(const LeafShape& frond, std::uint32_t individual, int lod) {
     for (std::uint32_t k = 0; k < frond_shapes; ++k)
         shapes[k] = leaf_mesh(individual_leaf(frond, 1 + frond_shapes * individual + k, 0.8), lod);
     Random random(1 + individual, purposes::plot_pieces, 44);
+    // Each rosette has its own number of fronds, and is more upright or flatter than others.
+    const int fronds =
+        fewest_fronds + static_cast<int>(random.bits() % (most_fronds - fewest_fronds + 1));
+    const double upright = 42.0 + 14.0 * random.uniform();
     Mesh rosette;
     for (int k = 0; k < fronds; ++k) {
         const double turn = random.symmetric(), rise = random.uniform(), size = random.uniform(),
                      out = random.uniform(), hue = random.uniform();
-        const SineCosine raised = sine_cosine(radians(48.0 + 26.0 * rise)),
+        const SineCosine raised = sine_cosine(radians(upright + 26.0 * rise)),
                          turned = sine_cosine(2.0 * pi * (k + 0.3 * turn) / fronds);
         const double scale = 0.75 + 0.35 * size;
         Mesh one = shapes[static_cast<std::size_t>(k) % frond_shapes];

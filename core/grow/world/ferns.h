@@ -28,7 +28,7 @@ struct FernSeason {
 [[nodiscard]] FernSeason ferns_on(int day);
 
 /// The individuals that ferns are copies of.
-inline constexpr std::uint32_t fern_shapes = 2;
+inline constexpr std::uint32_t fern_shapes = 5;
 
 /// Returns a rosette of fronds that rise from the origin and arch outwards: closed pieces with the texture coordinates
 /// of the leaf, and tints.
