@@ -59,7 +59,7 @@ std::vector<SnowWell> wells_of(std::span<const TreeFoot> feet) {
         const double draw = Random(0, purposes::floor_noise, 4, {at.x, at.y}).uniform();
         const double radius = 0.55 * foot.diameter;
         wells.push_back({foot.x, foot.y, radius - 0.2 * draw,
-                         std::min(radius + 0.1 + (0.5 + 2.0 * draw) * foot.diameter, snow_well)});
+                         std::min(radius + 0.08 + (0.2 + 1.2 * draw) * foot.diameter, snow_well)});
     }
     return wells;
 }
@@ -120,6 +120,8 @@ void add_snow(RawImages& images, const WorldBox& box, double cover, std::uint32_
                 }
             }
             for (std::size_t i = 0; i < side; ++i) {
+                // Bare ground is close to the trunk, and most of a well is thin snow.
+                left[i] = 1.0 - (1.0 - left[i]) * (1.0 - left[i]);
                 const std::size_t texel = 3 * (row * side + i);
                 // What is bright stands out of the floor, and is covered last.
                 const float bright = static_cast<float>(images.rgb[0][texel + 1]) / 255.0F;

@@ -410,8 +410,8 @@ LeafState leaves_on(int day) {
     constexpr int first_leaves = 112, last_leaves = 316;
     LeafState state;
     state.bare = day < first_leaves || day > last_leaves;
-    // Full green comes about six weeks after the leaves.
-    const double young = 1.0 - smooth_step(first_leaves + 6.0, first_leaves + 46.0, day);
+    // Full green comes about eight weeks after the leaves.
+    const double young = 1.0 - smooth_step(first_leaves + 10.0, first_leaves + 56.0, day);
     state.spring = state.bare ? 0.0 : std::floor(young * 8.0 + 0.5) / 8.0;
     const double turned = 0.9 * smooth_step(246.0, 312.0, day);
     state.autumn = state.bare ? 0.0 : std::floor(turned * 16.0 + 0.5) / 16.0;

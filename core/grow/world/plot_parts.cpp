@@ -162,6 +162,13 @@ std::uint32_t seed_of_cell(std::uint32_t seed, std::uint32_t which, int x, int y
                   {seed, purposes::plot_pieces})[0];
 }
 
+/// Returns how much snow lies on needles where it covers a share of the ground, both 0..1.
+double snow_on_needles(double cover) {
+    // Branches shed a part of it; in steps, so that trees of many days share their images.
+    constexpr double of_ground = 0.6, steps = 4.0;
+    return of_ground * std::floor(steps * cover + 0.5) / steps;
+}
+
 /// Returns a rotation that turns the vertical axis to a unit vector, after a turn about it.
 glm::dvec4 standing_on(const glm::dvec3& up, double angle) {
     const SineCosine turn = sine_cosine(angle);
@@ -182,7 +189,10 @@ TreeSpec tree_spec(const PlotContent& content, std::size_t kind, std::uint64_t n
     spec.params.foot_soil = false;
     // The leaves of a tree that is shown several times as large as it grows would be as much too large.
     spec.params.look.leaves.leaf_group = LeafGroup::branch;
-    if (has_needles({leaf.shape, leaf.palette})) return spec;
+    if (has_needles({leaf.shape, leaf.palette})) {
+        spec.params.snow = snow_on_needles(content.snow);
+        return spec;
+    }
     const LeafState state = leaves_on(content.northern_day());
     spec.params.spring = state.spring;
     spec.params.autumn = state.autumn;
@@ -192,7 +202,7 @@ TreeSpec tree_spec(const PlotContent& content, std::size_t kind, std::uint64_t n
 
 TreeSize tree_size(const TreeSpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
     TreeSpec green = spec;
-    green.params.spring = green.params.autumn = 0.0;
+    green.params.spring = green.params.autumn = green.params.snow = 0.0;
     return size_of(*cached_meshes(green, atlas, execution));
 }
 
@@ -236,6 +246,22 @@ PlotTrees trees_of(const PlotContent& content, const PlotOptions& options, const
         if (lod == last_lod) lod = impostor_lod;
     }
     return made;
+}
+
+Mesh leaves_beyond(const Mesh& leaves, const GlbTransform& place, const glm::dvec3& eye,
+                   double within) {
+    Mesh out = leaves;
+    out.indices.clear();
+    for (std::size_t i = 0; i + 2 < leaves.indices.size(); i += 3) {
+        const auto corner = [&](std::size_t k) {
+            return glm::dvec3(leaves.positions[leaves.indices[i + k]]);
+        };
+        const glm::dvec3 middle = (corner(0) + corner(1) + corner(2)) / 3.0;
+        const glm::dvec3 at = place.translation + rotated(place.rotation, place.scale * middle);
+        if (glm::distance(at, eye) < within) continue;
+        for (std::size_t k = 0; k < 3; ++k) out.indices.push_back(leaves.indices[i + k]);
+    }
+    return out;
 }
 
 Substrate wood_of(const TreePreset& tree) {

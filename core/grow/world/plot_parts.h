@@ -59,6 +59,14 @@ inline constexpr std::uint64_t tree_shapes_of_kind = 4;
                                  const PlotFrame& frame, std::uint64_t most, const Atlas& atlas,
                                  const ExecutionContext& execution);
 
+/// Returns the leaves of a tree without those near an eye, which somebody would push aside.
+///
+/// place   of the tree
+/// eye     in the space in which it is placed
+/// within  distance of the middle of a triangle, metres
+[[nodiscard]] Mesh leaves_beyond(const Mesh& leaves, const GlbTransform& place,
+                                 const glm::dvec3& eye, double within);
+
 /// A log or a snag.
 struct PlotLog {
     std::uint64_t id = 0;

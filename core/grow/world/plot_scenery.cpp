@@ -81,6 +81,9 @@ constexpr double least_to_fern = 1.5, ferns_within = 24.0;
 /// The distance from which on there are fewer of them, as the square of the distance grows, metres.
 constexpr double all_tufts_within = 9.0;
 
+/// The distance from the camera within which no leaf of a tree hangs, metres.
+constexpr double clear_sight = 2.2;
+
 /// Within this distance dead trunks are shown in full detail, metres.
 constexpr double near_trunks = 9.0;
 
@@ -388,16 +391,25 @@ class Scenery {
             std::clamp(std::sqrt(static_cast<double>(seen.size()) / many_trees), 0.3, 1.0);
         while (triangles_of(content, seen, near) > most_of_trees) near *= 1.2;
         const std::size_t parent = node_of(frame);
+        const glm::dvec3 eye_in_frame = camera_.eye - (frame.origin() - origin_);
         std::map<TreeKey, std::size_t> mesh_of_key;
         for (const SeenTree& one : seen) {
             const TreeKey key = key_of(one, near);
-            auto found = mesh_of_key.find(key);
-            if (found == mesh_of_key.end())
-                found = mesh_of_key.emplace(key, mesh_of(content, key)).first;
-            const std::size_t mesh = found->second;
             const auto& [kind, number, levels] = key;
             const GlbTransform place = place_of(
                 *one.tree, plot_.time, shape_at(content, kind, number, levels.bark).size, frame);
+            std::size_t mesh = 0;
+            if (one.distance < clear_sight + 1.5 * crown_radius(one.height)) {
+                // Its leaves can hang before the eye.
+                const Mesh& whole = shape_at(content, kind, number, levels.leaves).meshes->leaves;
+                meshes_.push_back(leaves_beyond(whole, place, eye_in_frame, clear_sight));
+                mesh = mesh_of(content, key, meshes_.back());
+            } else {
+                auto found = mesh_of_key.find(key);
+                if (found == mesh_of_key.end())
+                    found = mesh_of_key.emplace(key, mesh_of(content, key)).first;
+                mesh = found->second;
+            }
             add_child(parent, {.name = scene_.meshes[mesh].name,
                                .mesh = mesh,
                                .translation = place.translation,
@@ -416,14 +428,18 @@ class Scenery {
     /// Adds the mesh of an individual of a kind of trees at its levels of detail.
     std::size_t mesh_of(const PlotContent& content, const TreeKey& key) {
         const auto& [kind, number, levels] = key;
+        return mesh_of(content, key, shape_at(content, kind, number, levels.leaves).meshes->leaves);
+    }
+
+    /// Adds the same with some of the leaves of its level.
+    std::size_t mesh_of(const PlotContent& content, const TreeKey& key, const Mesh& leaves) {
+        const auto& [kind, number, levels] = key;
         const PlotTrees::Shape& bark = shape_at(content, kind, number, levels.bark);
-        const PlotTrees::Shape& leaves = shape_at(content, kind, number, levels.leaves);
-        scene_.meshes.push_back(
-            {bark.name, materials_.tree(bark.spec, bark.meshes->bark, leaves.meshes->leaves)});
+        scene_.meshes.push_back({bark.name, materials_.tree(bark.spec, bark.meshes->bark, leaves)});
         const TreeMeshes& far = *shape_at(content, kind, number, first_far_lod).meshes;
         if (levels.bark < first_far_lod) casters_[&bark.meshes->bark] = &far.bark;
         if (levels.leaves < first_far_lod && far.leaves.triangles() > 0)
-            casters_[&leaves.meshes->leaves] = &far.leaves;
+            casters_[&leaves] = &far.leaves;
         return scene_.meshes.size() - 1;
     }
 

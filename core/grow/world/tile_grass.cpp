@@ -21,6 +21,9 @@ constexpr double cell = 0.5;
 constexpr int blades_of_tuft = 6;
 constexpr double height_of_tuft = 0.13;
 
+/// The highest tip of a tuft, in its own height; and how far a tuft looks out of the snow at least, metres.
+constexpr double highest_blade = 1.2, least_above_snow = 0.03;
+
 constexpr glm::vec3 green_dark(0.035F, 0.075F, 0.012F), green_pale(0.15F, 0.22F, 0.04F),
     dry(0.32F, 0.26F, 0.12F);
 
@@ -82,17 +85,20 @@ std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content, cons
         const double chance = random.uniform(), size = random.uniform(), turn = random.uniform();
         return Tuft{chance, size, turn, random.bits() % tuft_shapes};
     };
+    // The surface of the snow is the floor: what grows stands as much lower.
+    const double snow = content.snow * content.snow_depth;
     for_each_place(
         content.seed, {cell, per_cell, 4}, frame.box(), rim, draw,
         [&](double x, double y, const Tuft& tuft) {
             const double grass = cover.at(x, y).grass;
             if (tuft.chance >= grass * grass) return;
-            // The lower half of a tuft is below the snow.
-            const double scale =
-                (0.4 + 1.2 * tuft.size) * (0.4 + 0.6 * grass) * (1.0 - 0.5 * content.snow);
+            const double scale = (0.4 + 1.2 * tuft.size) * (0.4 + 0.6 * grass);
+            if (snow > 0.0 && highest_blade * height_of_tuft * scale < snow + least_above_snow)
+                return;
             const SineCosine half = sine_cosine(pi * tuft.turn);
-            places[tuft.shape].push_back(
-                {frame.on_floor(x, y), {0.0, half.sine, 0.0, half.cosine}, glm::dvec3(scale)});
+            places[tuft.shape].push_back({frame.on_floor(x, y) - glm::dvec3(0.0, snow, 0.0),
+                                          {0.0, half.sine, 0.0, half.cosine},
+                                          glm::dvec3(scale)});
         });
     return places;
 }

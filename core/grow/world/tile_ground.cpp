@@ -61,9 +61,10 @@ std::vector<double> crown_heights(PatchCanopy& canopy, const PlotContent& conten
 }
 
 /// Returns the colour of the crowns of a kind from above, sRGB, and how much of the ground they hide.
-glm::dvec4 look_of_crowns(const TreePreset& tree, const LeafPreset& leaf, int day) {
+glm::dvec4 look_of_crowns(const TreePreset& tree, const LeafPreset& leaf,
+                          const PlotContent& content) {
     const bool evergreen = has_needles({leaf.shape, leaf.palette});
-    const LeafState state = evergreen ? LeafState{} : leaves_on(day);
+    const LeafState state = evergreen ? LeafState{} : leaves_on(content.northern_day());
     if (state.bare) return {0.36, 0.32, 0.29, 0.55};
     LaminaPlace middle;
     middle.inside = true;
@@ -72,8 +73,11 @@ glm::dvec4 look_of_crowns(const TreePreset& tree, const LeafPreset& leaf, int da
     const auto params = params_of(tree);
     LeafPalette palette = leaf.palette;
     palette.summer = unfolding(palette.summer, state.spring);
-    const glm::dvec3 light =
+    glm::dvec3 light =
         LeafColourMap(palette).at(middle, evergreen ? params.autumn : state.autumn).upper;
+    // From above, branches without snow show between those with it.
+    constexpr double seen_snow = 0.6;
+    if (evergreen) light = glm::mix(light, snow_light, seen_snow * content.snow);
     // Gaps between leaves are dark.
     constexpr double of_light = 0.55;
     return {linear_to_srgb(of_light * light.x), linear_to_srgb(of_light * light.y),
@@ -88,7 +92,7 @@ glm::dvec4 look_of_stand(const World& world, const PlotContent& content, const A
         if (tree == nullptr) continue;
         const LeafPreset* const leaf = atlas.find_leaf(params_of(*tree).look.leaf.id.string());
         if (leaf == nullptr) continue;
-        sum += kind.share * look_of_crowns(*tree, *leaf, content.northern_day());
+        sum += kind.share * look_of_crowns(*tree, *leaf, content);
     }
     return sum;
 }

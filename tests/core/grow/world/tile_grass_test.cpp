@@ -70,6 +70,31 @@ TEST(TileGrass, OfAPlotKeepsItsBudgetAndItsBorders) {
         EXPECT_LE(std::max(std::abs(at.x), std::abs(at.z)), 2.0 + rim_of_grass);
 }
 
+TEST(TileGrass, IsAsMuchLowerAsSnowIsDeepAndShortTuftsAreBelowIt) {
+    const SmallWood wood;
+    PlotContent content = wood.content(0.0, 0.0, 4.0);
+    const FloorHeights floor(wood.ground, content.seed, content.micro, {});
+    const CoverField cover = covered_with_grass(box_of(content), 0.8);
+    const auto standing = [&](double depth) {
+        content.snow = depth > 0.0 ? 1.0 : 0.0;
+        content.snow_depth = depth;
+        const PlotFrame frame(content, floor);
+        std::size_t count = 0;
+        for (const auto& places : tufts_on(content, frame, cover, 9))
+            for (const GlbTransform& place : places) {
+                const glm::dvec2 at = frame.below(place.translation);
+                EXPECT_NEAR(place.translation.y, frame.on_floor(at.x, at.y).y - depth, 1e-9);
+                ++count;
+            }
+        return count;
+    };
+    const std::size_t summer = standing(0.0), thin = standing(0.03), deep = standing(0.1);
+    EXPECT_GT(summer, thin);
+    EXPECT_GT(thin, deep);
+    EXPECT_GT(deep, 0U);
+    EXPECT_EQ(standing(0.3), 0U);
+}
+
 TEST(TileGrass, OfAnyDensityHasTheTuftsOfALesserOne) {
     const SmallWood wood;
     const PlotContent content = wood.content(0.0, 0.0, 4.0);

@@ -81,6 +81,21 @@ TEST(TileGround, FromAfarWoodsAreGreenInSummerAndBrownInWinter) {
     EXPECT_GT(brown[1], brown[2]);
 }
 
+TEST(TileGround, FromAfarSnowMakesNeedlesPaler) {
+    const World& world = land("spruce");
+    PlotContent of = content(world, 256.0);
+    of.centre = {};
+    double last = 0.0;
+    for (const double snow : {0.0, 0.5, 1.0}) {
+        of.snow = snow;
+        const double blue = mean_colour(TileGround(world, of).images(atlas()))[2];
+        EXPECT_GT(blue, last + 10.0) << snow;
+        last = blue;
+    }
+    // Even a wood that is snowed in is darker than open snow.
+    EXPECT_LT(last, 220.0);
+}
+
 TEST(TileGround, HasSmallerImagesOfReliefAndGlossAndNoneFromAfar) {
     const World& world = land("mixed");
     for (const double size : {8.0, 16.0, 64.0, 128.0}) {
