@@ -28,7 +28,7 @@ const sheets = {
             plot("birch,seed=2", "y128d118", "x=95&y=-54"),
             plot("beech,seed=7", "y81d285", "x=51.5&y=33.5&size=4&view=kneeling"),
             plot("spruce,seed=7", "y90d262", "x=-214.8&y=-136&size=4&view=kneeling"),
-            plot("mixed,seed=7", "y88d276", "x=-108.2&y=-22.7&size=4&view=kneeling"),
+            plot("mixed,seed=7", "y88d276", "x=196.1&y=-35.6&size=4&view=kneeling"),
             plot("meadow,seed=7", "y88d280", "x=29.9&y=8.2&size=4&view=kneeling"),
             plot("clearing,seed=7", "y88d285", "x=3.3&y=63.9&size=4&view=kneeling"),
             plot("mixed,seed=7", "y80d28", "x=-2.8&y=45.3"),
