@@ -31,6 +31,11 @@ constexpr std::size_t lump_columns = 128, lump_rows = 32;
 constexpr int lumps_along = 9;
 constexpr double lumps_across = 3.0;
 
+// Returns the length of a needle in that of the longest ones, by where it is along a shoot: less at both ends.
+double needle_length(double along) {
+    return std::min({1.0, 0.45 + 6.0 * along, 7.0 * (1.0 - along)});
+}
+
 }  // namespace
 
 ShootPainter::ShootPainter(const Colours& colours, double snow, std::uint32_t seed)
@@ -54,7 +59,6 @@ PanelPoint ShootPainter::between_needles() const {
 
 PanelPoint ShootPainter::needles_at(double along, double across, double dense) const {
     PanelPoint seen = between_needles();
-    if (along < 0.0 || along > 1.0) return seen;
     const double out = std::abs(across);
     const auto put = [&](const glm::dvec3& upper, const glm::dvec3& lower, double tilt,
                          double open) {
@@ -71,10 +75,8 @@ PanelPoint ShootPainter::needles_at(double along, double across, double dense) c
             const glm::dvec2 own =
                 cell_middle(static_cast<int>(index), across < 0.0 ? 1 : 2, layer.salt + seed_);
             const double moved = own.x - std::floor(own.x), drawn = own.y - std::floor(own.y);
-            // Needles are shorter at both ends of a shoot.
             const double root = (index + 0.5) / (layer.count * dense);
-            const double end = std::min({1.0, 0.45 + 6.0 * root, 7.0 * (1.0 - root)});
-            const double reach = layer.length * (0.72 + 0.28 * drawn) * end;
+            const double reach = layer.length * (0.72 + 0.28 * drawn) * needle_length(root);
             if (reach <= 0.0) continue;
             const double t = out / reach;
             if (t >= 1.0) continue;
@@ -119,13 +121,15 @@ ShootPainter::Snow ShootPainter::snow_at(double along, double across, std::uint3
 
 PanelPoint ShootPainter::snowy(double along, double across, double dense,
                                std::uint32_t shoot) const {
+    if (along < 0.0 || along > 1.0) return between_needles();
     PanelPoint seen = needles_at(along, across, dense);
-    if (snow_ <= 0.0 || along < 0.0 || along > 1.0) return seen;
+    if (snow_ <= 0.0) return seen;
     const Snow snow = snow_at(along, across, shoot);
     // Deep snow reaches over the gaps between needles, as far as these hold it.
     constexpr double over_gaps = 0.3, held = 0.72;
-    const double end = std::min({1.0, 0.45 + 6.0 * along, 7.0 * (1.0 - along)});
-    if (!seen.is_drawn && (snow.depth < over_gaps || std::abs(across) > held * end)) return seen;
+    if (!seen.is_drawn &&
+        (snow.depth < over_gaps || std::abs(across) > held * needle_length(along)))
+        return seen;
     const double covers = smooth_step(0.0, 0.18, snow.depth);
     if (covers <= 0.0) return seen;
     const glm::dvec3 white = glm::mix(thin_snow, snow_light, smooth_step(-0.05, 0.45, snow.depth));

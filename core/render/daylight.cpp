@@ -85,13 +85,13 @@ glm::vec3 Sky::at(const glm::vec3& direction) const {
 }
 
 glm::vec3 Sky::mirrored(const glm::vec3& direction, float roughness, float arriving) const {
-    if (!(arriving > 0.0F)) return glm::vec3(0.0F);
+    // The pieces of rough ground, such as litter, hide the sky from each other.
+    const float open = std::clamp((1.0F - roughness) / (1.0F - rough), 0.0F, 1.0F);
+    if (!(arriving > 0.0F && open > 0.0F)) return glm::vec3(0.0F);
     const auto width = static_cast<double>(std::max(roughness, 0.15F));
     const auto share =
         static_cast<float>(smooth_step(-width, width, static_cast<double>(direction.y)));
     const glm::vec3 above = mix(horizon_, zenith_, std::max(direction.y, 0.0F));
-    // The pieces of rough ground, such as litter, hide the sky from each other.
-    const float open = std::clamp((1.0F - roughness) / (1.0F - rough), 0.0F, 1.0F);
     // Beer-Lambert's law: crowns that let a share through overhead let less through aslant.
     const double path =
         std::min(overhead_path / std::max(static_cast<double>(direction.y), 1e-3), longest_path);

@@ -118,17 +118,10 @@ std::vector<std::vector<GlbTransform>> fern_places(const PlotContent& content,
     const FernSeason season = ferns_on(content.northern_day());
     // Snow lays fronds down.
     if (season.unrolled <= 0.0 || content.snow > 0.5) return places;
-    struct Fern {
-        double chance, size, turn;
-        std::uint32_t shape;
-    };
-    const auto draw = [](Random& random) {
-        const double chance = random.uniform(), size = random.uniform(), turn = random.uniform();
-        return Fern{chance, size, turn, random.bits() % fern_shapes};
-    };
     for_each_place(
-        content.seed, {cell, most_in_cell, 45}, frame.box(), rim, draw,
-        [&](double x, double y, const Fern& fern) {
+        content.seed, {cell, most_in_cell, 45}, frame.box(), rim,
+        [](Random& random) { return draw_copy(random, fern_shapes); },
+        [&](double x, double y, const ScatteredCopy& fern) {
             Random of_patch(content.seed, purposes::plot_pieces, 46,
                             {cell_of(x, patch), cell_of(y, patch)});
             const double here = of_patch.uniform();

@@ -24,6 +24,22 @@ struct Scattering {
     std::uint32_t stream = 0;
 };
 
+/// A copy of one of a few shapes that stands at a place, and what decides whether it does; uniform in 0..1.
+struct ScatteredCopy {
+    double chance = 0.0, size = 0.0, turn = 0.0;
+    std::uint32_t shape = 0;
+};
+
+/// Draws a copy of one of so many shapes.
+[[nodiscard]] inline ScatteredCopy draw_copy(Random& random, std::uint32_t shapes) {
+    ScatteredCopy one;
+    one.chance = random.uniform();
+    one.size = random.uniform();
+    one.turn = random.uniform();
+    one.shape = random.bits() % shapes;
+    return one;
+}
+
 /// Calls a function for each place on a rectangle, in the order of the cells of the world.
 ///
 /// rim   distance from the border within which no place counts, metres

@@ -77,19 +77,12 @@ Mesh tuft_mesh(std::size_t shape, const GrassSeason& season) {
 std::vector<std::vector<GlbTransform>> tufts_on(const PlotContent& content, const PlotFrame& frame,
                                                 const CoverField& cover, int per_cell, double rim) {
     std::vector<std::vector<GlbTransform>> places(tuft_shapes);
-    struct Tuft {
-        double chance, size, turn;
-        std::size_t shape;
-    };
-    const auto draw = [](Random& random) {
-        const double chance = random.uniform(), size = random.uniform(), turn = random.uniform();
-        return Tuft{chance, size, turn, random.bits() % tuft_shapes};
-    };
     // The surface of the snow is the floor: what grows stands as much lower.
     const double snow = content.snow * content.snow_depth;
     for_each_place(
-        content.seed, {cell, per_cell, 4}, frame.box(), rim, draw,
-        [&](double x, double y, const Tuft& tuft) {
+        content.seed, {cell, per_cell, 4}, frame.box(), rim,
+        [](Random& random) { return draw_copy(random, tuft_shapes); },
+        [&](double x, double y, const ScatteredCopy& tuft) {
             const double grass = cover.at(x, y).grass;
             if (tuft.chance >= grass * grass) return;
             const double scale = (0.4 + 1.2 * tuft.size) * (0.4 + 0.6 * grass);
